@@ -6,7 +6,7 @@ mod common;
 use std::hint::black_box;
 
 use criterion::BenchmarkId;
-use toile::flatten::{Mode, Options, flatten};
+use toile::flatten::{FlattenOptions, Mode, flatten};
 use toile::geometry::{TriMesh, Vec3};
 
 /// Vertices along each side: 2,500, 10,000, 40,000 and 100,000 in all.
@@ -18,7 +18,7 @@ fn main() {
         let mut group = criterion.benchmark_group(format!("{mode:?}").to_lowercase());
         for side in SIDES {
             let front = front(side);
-            let options = Options { mode, ..Options::default() };
+            let options = FlattenOptions { mode, ..FlattenOptions::default() };
             let name = BenchmarkId::from_parameter(front.vertices.len());
             group.bench_function(name, |b| b.iter(|| flatten(black_box(&front), &options).is_ok()));
         }

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use toile::flatten::Options;
+use toile::flatten::FlattenOptions;
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
 use toile::pipeline::{Job, Overrides, PictureOptions, Run};
@@ -93,7 +93,7 @@ fn made(case: &Case, from: Option<&Path>) -> Result<(f64, Vec<Vec3>), Box<dyn Er
         Some(folder) => Run::continued(&job, folder)?,
         None => Run::new(&job),
     };
-    run.flatten(&Options::default(), &mut |_, _| {})?;
+    run.flatten(&FlattenOptions::default(), &mut |_, _| {})?;
     let seconds = begin.elapsed().as_secs_f64();
     Ok((seconds, run.last().unwrap_or_default().to_vec()))
 }

@@ -9,7 +9,7 @@ mod common;
 use std::error::Error;
 
 use toile::pipeline::Run;
-use toile::report::{Contact, Stage};
+use toile::report::{ContactReport, Stage};
 
 /// Files below `tests/scenes` and their spacings, mm.
 const SCENES: [(&str, f64); 13] = [
@@ -49,7 +49,7 @@ fn line(name: &str, spacing: f64) -> Result<String, Box<dyn Error>> {
     let particles: usize = report.pieces.iter().map(|p| p.particles).sum();
     let seconds: f64 = report.stages.iter().map(|s| s.seconds).sum();
     let drape = report.stages.iter().find(|s| s.name == "drape").ok_or("no drape")?;
-    let crossed = if report.contact == Contact::default() { "" } else { "  CROSSES" };
+    let crossed = if report.contact == ContactReport::default() { "" } else { "  CROSSES" };
     let rests = if drape.converged { "" } else { "  DRIFTS" };
     let (steps, contact) = (drape.iterations, shares(drape));
     Ok(format!("{name:<24}{particles:>10}{steps:>8}{seconds:>9.1}   {contact}{crossed}{rests}"))

@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 use criterion::BenchmarkId;
 use toile::drape::{DrapeOptions, drape};
-use toile::flatten::{Options, flatten_garment};
+use toile::flatten::{FlattenOptions, flatten_garment};
 use toile::geometry::Vec3;
 use toile::mesh::build;
 use toile::pipeline::Job;
@@ -35,7 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     group.bench_function(named("sew"), |b| b.iter(|| self::sewn(&job, black_box(&start)).is_ok()));
     group.bench_function(named("drape"), |b| b.iter(|| self::draped(&job, black_box(&sewn)).is_ok()));
     group.bench_function(named("flatten"), |b| {
-        b.iter(|| flatten_garment(&job.mesh, &job.garment.seams, black_box(&draped), &Options::default()).is_ok());
+        b.iter(|| {
+            flatten_garment(&job.mesh, &job.garment.seams, black_box(&draped), &FlattenOptions::default()).is_ok()
+        });
     });
     group.finish();
     criterion.final_summary();

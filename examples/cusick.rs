@@ -18,7 +18,7 @@ use svg::node::element::{Circle, Line, Path, Text};
 use toile::fabric::{Fabric, GRAVITY, library, load, sheet};
 use toile::io::files::write_all;
 use toile::picture::draw_shadow;
-use toile::specimen::{Draped, LAYS, Sample, Series, SpecimenError, drape};
+use toile::specimen::{DrapedDisc, LAYS, Sample, Series, SpecimenError, drape};
 
 /// Grid spacings, metres.
 const SPACINGS: [f64; 2] = [0.005, 0.0025];
@@ -176,7 +176,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let Some(folder) = folder else { return Ok(()) };
     let mut files = vec![(folder.join("curve.svg"), drawing(&curve, &rows).into_bytes())];
     for Row { name, series, .. } in &rows {
-        let Some(Draped { shadow, coefficient, folds, .. }) = series.typical() else { continue };
+        let Some(DrapedDisc { shadow, coefficient, folds, .. }) = series.typical() else { continue };
         let words = format!(
             "one lay: {:.0} %, {folds} folds; mean of {}: {:.0} %",
             100.0 * coefficient,

@@ -6,7 +6,7 @@ use std::error::Error;
 use std::path::Path;
 
 use toile::pipeline::{Job, Overrides, read};
-use toile::sew::start::{Dealing, Glued, Opening, edges, glue, guess, openings};
+use toile::sew::start::{Dealing, Glued, GluedOpening, edges, glue, guess, openings};
 
 /// Metres per millimetre.
 const MM: f64 = 1e-3;
@@ -65,7 +65,7 @@ fn beside(job: &Job, glued: &Glued) -> String {
     said("lies on others:", out.join(", ")) + &said("lapped:", laps.join(", "))
 }
 
-fn row(job: &Job, glued: &Glued, found: &[Opening], dealing: &Dealing, i: usize) -> String {
+fn row(job: &Job, glued: &Glued, found: &[GluedOpening], dealing: &Dealing, i: usize) -> String {
     let opening = &found[i];
     let along = edges(&job.garment, &job.mesh, glued, opening).join(", ");
     let next = dealing.runner_up.as_ref().map_or(String::new(), |next| format!(" (or {})", next[i]));

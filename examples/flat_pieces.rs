@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_3, PI};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use toile::flatten::{Mode, Options};
+use toile::flatten::{FlattenOptions, Mode};
 use toile::input::LengthUnit;
 use toile::io::files::write_all;
 use toile::pipeline::{Darts, SurfaceOptions, flatten_surface};
@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let options = SurfaceOptions {
             unit: Some(LengthUnit::Metre),
             darts: case.darts.then_some(Darts::Auto),
-            flatten: Options { mode: case.mode, ..Options::default() },
+            flatten: FlattenOptions { mode: case.mode, ..FlattenOptions::default() },
             ..SurfaceOptions::default()
         };
         let flat = flatten_surface(&file, &options)?;

@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use toile::flatten::Options;
+use toile::flatten::FlattenOptions;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::{Quartet, Report, aligned};
 
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = Path::new(&file);
     let job = Job::new(file, read(file)?, &Overrides { spacing, ..Overrides::default() })?;
     let mut run = Run::new(&job);
-    run.flatten(&Options::default(), &mut |_, _| {})?;
+    run.flatten(&FlattenOptions::default(), &mut |_, _| {})?;
     let report = run.report();
     println!("{}, {}, spacing {} mm; percent\n", report.garment, report.fabric, report.spacing);
     print!("{}", table(&report));

@@ -14,7 +14,7 @@ use common::fig5::diagonal;
 use common::fig7::{ball, pull, wrinkles};
 use common::fig9::skirt;
 use common::{Experiment, Solved, settled, weights};
-use toile::drape::geometric::{Alternating, Report, SolveOptions};
+use toile::drape::geometric::{Alternating, SolveOptions, SolverReport};
 use toile::geometry::Topology;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::aligned;
@@ -52,7 +52,7 @@ fn measured(e: &Experiment, fabric: &str) -> Result<[Vec<String>; 2], Box<dyn Er
     let Solved { report: squares, .. } = e.solve(weights)?;
     let mut x = e.start.clone();
     let alternating = Alternating::new(&cloth, &e.held, e.recovery())?.solve(&mut x, SolveOptions::default())?;
-    let row = |solver: &str, report: &Report| {
+    let row = |solver: &str, report: &SolverReport| {
         let each = |seconds: f64| format!("{:.2}", 1e3 * seconds / report.iterations.max(1) as f64);
         let mesh = [e.mesh.vertices.len(), e.mesh.triangles.len(), cloth.edges()].map(|n| n.to_string());
         let mut out = vec![e.name.to_owned(), fabric.to_owned(), solver.to_owned()];

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use room::{COARSE, ENDLESS, Room, SKIRT, skirt, skirts, text};
 use serde_json::{Value, json};
-use toile::batch::{Digests, Job, Key};
+use toile::batch::{BatchJob, Digests, JobKey};
 
 /// A garment that cannot be sewn.
 const NARROW_TUBE: &str = include_str!("data/narrow_tube.yaml");
@@ -303,8 +303,8 @@ fn samples_draw_measures_alterations_and_sizes_and_the_batch_makes_them() {
 }
 
 /// The key of `skirt.yaml` in this folder.
-fn key(folder: &Path, options: Job) -> Key {
-    Key::of(&Job { id: "any".into(), garment: vec![folder.join("skirt.yaml")], ..options }, &Digests::default())
+fn key(folder: &Path, options: BatchJob) -> JobKey {
+    JobKey::of(&BatchJob { id: "any".into(), garment: vec![folder.join("skirt.yaml")], ..options }, &Digests::default())
 }
 
 #[test]
@@ -316,17 +316,20 @@ fn a_key_follows_the_content_and_all_that_is_named_and_nothing_else() {
         room.put("curve.csv", "0 0\n");
     }
     let (one, two) = (one.0.path(), two.0.path());
-    let same = key(one, Job::options());
-    assert_eq!(same, key(two, Job::options()));
+    let same = key(one, BatchJob::options());
+    assert_eq!(same, key(two, BatchJob::options()));
     assert_eq!(same.to_string().len(), 32);
-    assert_ne!(same, key(one, Job { spacing: Some(25.0), ..Job::options() }));
-    let cloth = |folder: &Path| Job { fabric: Some(folder.join("cloth.yaml").display().to_string()), ..Job::options() };
+    assert_ne!(same, key(one, BatchJob { spacing: Some(25.0), ..BatchJob::options() }));
+    let cloth = |folder: &Path| BatchJob {
+        fabric: Some(folder.join("cloth.yaml").display().to_string()),
+        ..BatchJob::options()
+    };
     assert_eq!(key(one, cloth(one)), key(two, cloth(two)));
     fs::write(two.join("curve.csv"), "0 0\n1 1\n").expect("written");
-    assert_ne!(same, key(two, Job::options()));
+    assert_ne!(same, key(two, BatchJob::options()));
     assert_ne!(key(one, cloth(one)), key(one, cloth(two)));
     fs::remove_file(two.join("skirt.yaml")).expect("removed");
-    assert_ne!(same, key(two, Job::options()));
+    assert_ne!(same, key(two, BatchJob::options()));
 }
 
 /// An index that was written again after this many seconds differed in its last digit from the one before.

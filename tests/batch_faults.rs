@@ -7,7 +7,7 @@ use std::path::Path;
 
 use room::{COARSE, Room, SKIRT, skirt, text};
 use serde_json::{Value, json};
-use toile::batch::{Digests, Job, Key};
+use toile::batch::{BatchJob, Digests, JobKey};
 
 /// Runs one job with a worker that is a shell script.
 #[cfg(unix)]
@@ -15,16 +15,16 @@ mod scripts {
     use std::num::NonZeroUsize;
     use std::os::unix::fs::PermissionsExt;
 
-    use toile::batch::{BatchError, INDEX, Limits, Plan, Store, Summary, Worker, run};
+    use toile::batch::{BatchError, BatchPlan, INDEX, Limits, Store, Summary, Worker, run};
 
     use super::*;
 
     fn batch(room: &Room, script: &str) -> Result<Summary, BatchError> {
         room.put("worker", &format!("#!/bin/sh\n{script}\n"));
         fs::set_permissions(room.path("worker"), fs::Permissions::from_mode(0o755)).expect("set");
-        let job = Job { id: "skirt".into(), garment: vec![room.path("skirt.yaml")], ..Job::options() };
+        let job = BatchJob { id: "skirt".into(), garment: vec![room.path("skirt.yaml")], ..BatchJob::options() };
         let worker = Worker { program: vec![room.path("worker").into()], threads: NonZeroUsize::MIN };
-        let plan = Plan {
+        let plan = BatchPlan {
             worker,
             limits: Limits::default(),
             side_by_side: NonZeroUsize::MIN,
@@ -70,7 +70,10 @@ mod scripts {
 fn a_key_follows_what_a_garment_names_whatever_its_file_is_called() {
     let room = Room::new();
     let key = |name: &str| {
-        Key::of(&Job { id: "any".into(), garment: vec![room.path(name)], ..Job::options() }, &Digests::default())
+        JobKey::of(
+            &BatchJob { id: "any".into(), garment: vec![room.path(name)], ..BatchJob::options() },
+            &Digests::default(),
+        )
     };
     let garments = [
         ("sheet.json", "{\"garment\": 1, \"body\": \"ball.obj\"}"),
@@ -79,7 +82,7 @@ fn a_key_follows_what_a_garment_names_whatever_its_file_is_called() {
         ("marked.yaml", "\u{feff}garment: 1\nbody: ball.obj\n"),
     ];
     room.put("ball.obj", "v 0 0 0\n");
-    let before: Vec<Key> = garments
+    let before: Vec<JobKey> = garments
         .iter()
         .map(|(name, text)| {
             room.put(name, text);

@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
-use toile::flatten::line::{Spot, Web, length, plane_section, straightened};
+use toile::flatten::line::{SurfacePoint, Web, length, plane_section, straightened};
 use toile::flatten::{Solid, shortest_path};
 use toile::geometry::{TriMesh, Vec3};
 use toile::input::LengthUnit;
@@ -135,7 +135,7 @@ fn a_plane_cuts_a_sphere_in_a_great_circle() {
         assert!(off <= 0.25, "{off} mm beside the plane");
         let quarter = length(&mesh, &line) / (FRAC_PI_2 * RADIUS);
         assert!((0.998..1.0).contains(&quarter), "{quarter}");
-        assert!(line.iter().filter(|spot| matches!(spot, Spot::Edge { .. })).count() > 20);
+        assert!(line.iter().filter(|spot| matches!(spot, SurfacePoint::Edge { .. })).count() > 20);
     }
 }
 

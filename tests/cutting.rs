@@ -2,18 +2,18 @@
 //! shares nothing with its writer.
 
 use proptest::prelude::*;
-use toile::cutting::{Layout, Lettering, MarkKind, Options, Paper, Room, SewKind, Sheet, papers};
+use toile::cutting::{CuttingOptions, Layout, Lettering, MarkKind, Paper, Room, SewKind, Sheet, papers};
 use toile::geometry::{Path, Vec2};
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::read_text;
 use toile::io::pdf_write::{Page, one_page, tiled};
 use toile::io::svg_write::cutting_svg;
-use toile::pattern::{Drawing, drawings};
+use toile::pattern::{DrawnPiece, drawings};
 
 /// A hundredth of a millimetre, metres: how exact a pattern is.
 const EXACT: f64 = 1e-5;
 
-fn drawn(text: &str) -> Vec<Drawing> {
+fn drawn(text: &str) -> Vec<DrawnPiece> {
     let loaded = read_text("garment", "garment.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     drawings(&loaded.file, &loaded.garment)
 }
@@ -24,7 +24,7 @@ fn one_piece(lines: &str) -> String {
 }
 
 fn paper_of(lines: &str) -> Paper {
-    papers(&drawn(&one_piece(lines)), &Options::default()).remove(0)
+    papers(&drawn(&one_piece(lines)), &CuttingOptions::default()).remove(0)
 }
 
 fn mm(x: f64, y: f64) -> Vec2 {
@@ -170,11 +170,11 @@ fn a_piece_on_the_fold_ends_on_it_and_opens_to_a_whole() {
         "    cut: fold center\n    allowance: {hem: 30}\n    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, \
          side: L 120 300, hem: L 0 300, center: L 0 20}\n",
     );
-    let half = papers(&drawn(&text), &Options::default()).remove(0);
+    let half = papers(&drawn(&text), &CuttingOptions::default()).remove(0);
     let [from, to] = half.fold.expect("a fold");
     assert!(from.x.abs() < 1e-9 && to.x.abs() < 1e-9);
     assert!((from.y - 0.330).abs() < EXACT && (to.y - 0.010).abs() < EXACT, "{from} {to}");
-    let whole = papers(&drawn(&text), &Options { whole: true, ..Options::default() }).remove(0);
+    let whole = papers(&drawn(&text), &CuttingOptions { whole: true, ..CuttingOptions::default() }).remove(0);
     assert!(whole.fold.is_none());
     assert!((area(&whole.cut[0]) - 2.0 * area(&half.cut[0])).abs() < 1e-9);
     assert!(crosses_itself(&whole.cut[0]).is_none());
@@ -185,7 +185,7 @@ const PLACES: usize = 200;
 
 /// Where an edge has less than its allowance beside it, though no join of a corner may reach there: a mitre takes at
 /// most the wider width of the edge's cut line, and other ends stay within a mitre's limit.
-fn short_of_allowance(drawing: &Drawing, paper: &Paper) -> Option<(String, Vec2)> {
+fn short_of_allowance(drawing: &DrawnPiece, paper: &Paper) -> Option<(String, Vec2)> {
     let room = Room { contours: paper.cut.clone(), walls: Vec::new() };
     let edges = &drawing.rings[0];
     let width = |i: usize| edges[i % edges.len()].allowance.width.expect("given");
@@ -221,7 +221,7 @@ fn a_narrow_allowance_takes_nothing_from_a_wide_one_beside_it() {
     let kinds = ["mitred", "squared", "folded"].map(|kind| flat.replace("KIND", kind));
     for lines in [inwards, outwards].into_iter().chain(kinds.iter().map(String::as_str)) {
         let drawing = drawn(&one_piece(lines)).remove(0);
-        let paper = papers(std::slice::from_ref(&drawing), &Options::default()).remove(0);
+        let paper = papers(std::slice::from_ref(&drawing), &CuttingOptions::default()).remove(0);
         assert_eq!(short_of_allowance(&drawing, &paper), None, "{lines}");
         assert!(crosses_itself(&paper.cut[0]).is_none(), "{lines}");
     }
@@ -268,7 +268,7 @@ fn on_fold_and_whole(start: f64, edges: &[([Vec2; 2], String)]) -> Option<[Paper
     let whole = piece("", &format!("{half}{other}"), &allowances.concat());
     // Some bend across the fold or each other: they are no pieces.
     let read = |text: &str| read_text("garment", "garment.yaml", text).ok();
-    let options = Options { whole: true, ..Options::default() };
+    let options = CuttingOptions { whole: true, ..CuttingOptions::default() };
     let cut = |text: &str| Some(papers(&read(text).map(|l| drawings(&l.file, &l.garment))?, &options).remove(0));
     Some([cut(&folded)?, cut(&whole)?])
 }
@@ -306,7 +306,7 @@ fn a_bay_across_the_fold_opens_to_one_contour() {
     let half = "{start: 0 120, a: L 40 80, b: L 4 40, c: L 4 0, d: L 200 0, e: L 200 300, f: L 0 300";
     let folded = text(&format!("{half}, center: L 0 120}}")).replace("    allow", "    cut: fold center\n    allow");
     let whole = text(&format!("{half}, g: L -200 300, h: L -200 0, i: L -4 0, j: L -4 40, k: L -40 80, l: L 0 120}}"));
-    let options = Options { whole: true, ..Options::default() };
+    let options = CuttingOptions { whole: true, ..CuttingOptions::default() };
     let [folded, whole] = [folded, whole].map(|text| papers(&drawn(&text), &options).remove(0));
     assert_eq!((folded.cut.len(), whole.cut.len()), (2, 2), "{:?}", folded.cut);
     for (one, other) in folded.cut.iter().zip(&whole.cut) {
@@ -351,7 +351,7 @@ proptest! {
         // Edges that bend into each other make no piece.
         let Ok(loaded) = read_text("garment", "garment.yaml", &text) else { return Ok(()) };
         let drawing = drawings(&loaded.file, &loaded.garment).remove(0);
-        let paper = papers(std::slice::from_ref(&drawing), &Options::default()).remove(0);
+        let paper = papers(std::slice::from_ref(&drawing), &CuttingOptions::default()).remove(0);
         let edges = &drawing.rings[0];
         let width = |i: usize| edges[i % edges.len()].allowance.width.expect("given");
         for contour in &paper.cut {
@@ -446,7 +446,7 @@ free: ['front.*', 'patch.*', back.neck, back.side, back.hem]
 ";
 
 fn sample() -> Vec<Paper> {
-    papers(&drawn(SAMPLE), &Options::default())
+    papers(&drawn(SAMPLE), &CuttingOptions::default())
 }
 
 /// Over the mouth of a dart the cut line is raised, so that it lies flush where the dart is pressed.
@@ -692,7 +692,7 @@ fn labels_cross_no_line_that_is_cut_or_sewn() {
         let path = entry.expect("an entry").path();
         if path.extension().is_some_and(|e| e == "yaml") {
             let drawings = drawn(&std::fs::read_to_string(&path).expect("text"));
-            papers(&drawings, &Options::default()).iter().for_each(assert_clear_labels);
+            papers(&drawings, &CuttingOptions::default()).iter().for_each(assert_clear_labels);
         }
     }
     for outline in [
@@ -715,7 +715,7 @@ fn labels_are_clear_of_the_grain_s_arrow_and_its_barbs() {
         let outline = format!("    outline: {{start: 0 0, a: L {width} 0, b: L {width} 120, c: L 0 120, d: L 0 0}}\n");
         let arrow = format!("[[2, {}], [2, {}]]", 60.0 + grain / 2.0, 60.0 - grain / 2.0);
         let text = one_piece(&outline).replace("[[0, 50], [0, 0]]", &arrow);
-        let paper = papers(&drawn(&text), &Options::default()).remove(0);
+        let paper = papers(&drawn(&text), &CuttingOptions::default()).remove(0);
         // Barbs 6 mm long and as wide, at both ends.
         let [tail, head] = paper.grain;
         let [left, right, up] = [mm(-3.0, 0.0), mm(3.0, 0.0), mm(0.0, -6.0)];
@@ -758,7 +758,7 @@ fn holed(hole: &str, sewn: bool) -> Paper {
         hole.trim_start_matches("M ").split(" L ").next().expect("a start"),
         hole.split_once(" L ").map(|(start, rest)| format!("L {rest} L {}", &start[2..])).expect("a path"),
     );
-    papers(&drawn(&text), &Options::default()).remove(0)
+    papers(&drawn(&text), &CuttingOptions::default()).remove(0)
 }
 
 #[test]
@@ -783,7 +783,7 @@ fn a_hole_has_an_allowance_where_something_is_sewn_into_it() {
 fn the_grain_is_on_the_piece_wherever_it_was_drawn() {
     let beside = "garment: 1\nfree: ['*.*']\npieces:\n  front:\n    grain: [[500, 90], [500, 10]]\n    \
                   outline: {start: 0 0, top: L 100 0, right: L 100 200, hem: L 0 200, left: L 0 0}\n";
-    let paper = papers(&drawn(beside), &Options::default()).remove(0);
+    let paper = papers(&drawn(beside), &CuttingOptions::default()).remove(0);
     let [tail, head] = paper.grain;
     let [low, high] = paper.bounds();
     assert!(tail.x > low.x && tail.x < high.x && (tail.y - head.y - 0.080).abs() < 1e-9, "{tail} {head}");

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use toile::cutting::{Options, Paper, Plan, PlanError, PlanOptions, labelled, plans};
+use toile::cutting::{CuttingOptions, Paper, Plan, PlanError, PlanOptions, labelled, plans};
 use toile::geometry::Vec2;
 use toile::io::garment::{Loaded, read, read_text};
 use toile::pattern::drawings;
@@ -18,7 +18,7 @@ fn shipped(name: &str) -> Loaded {
 
 fn papers(loaded: &Loaded, whole: bool) -> Vec<Paper> {
     let label = toile::cutting::Label { title: loaded.garment.title.clone(), wearer: None, date: None };
-    labelled(&drawings(&loaded.file, &loaded.garment), &Options { whole, ..Options::default() }, &label)
+    labelled(&drawings(&loaded.file, &loaded.garment), &CuttingOptions { whole, ..CuttingOptions::default() }, &label)
 }
 
 fn planned(loaded: &Loaded, options: &PlanOptions) -> Vec<Plan> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use toile::cutting::{Layout, Options, Paper, SewKind, Sheet, papers};
+use toile::cutting::{CuttingOptions, Layout, Paper, SewKind, Sheet, papers};
 use toile::digitize::{Digitized, Traced, garment_file};
 use toile::geometry::{Path, Vec2};
 use toile::io::dxf_read::read_dxf_text;
@@ -11,7 +11,7 @@ use toile::io::garment::{Loaded, read_text, write};
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::{cutting_svg, pattern_svg};
 use toile::mesh::build;
-use toile::pattern::{Cut, DartFile, DartShape, Drawing, Located, NotchFile, PieceFile, drawings};
+use toile::pattern::{CutKind, DartFile, DartShape, DrawnPiece, Located, NotchFile, PieceFile, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
 const FREESEWING: &str = include_str!("data/freesewing.svg");
@@ -24,7 +24,7 @@ fn loaded(made: &Digitized) -> Loaded {
     read_text("drawing", "drawing.yaml", &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"))
 }
 
-fn drawn(made: &Digitized) -> Vec<Drawing> {
+fn drawn(made: &Digitized) -> Vec<DrawnPiece> {
     let loaded = loaded(made);
     drawings(&loaded.file, &loaded.garment)
 }
@@ -33,11 +33,11 @@ fn from_svg(text: &str) -> Digitized {
     garment_file("drawing", &read_svg_text(text).expect("pieces").pieces)
 }
 
-fn lengths(drawing: &Drawing) -> Vec<(String, f64)> {
+fn lengths(drawing: &DrawnPiece) -> Vec<(String, f64)> {
     drawing.rings[0].iter().map(|e| (e.name.clone(), e.path.length() * 1e3)).collect()
 }
 
-fn length(drawing: &Drawing, edge: &str) -> f64 {
+fn length(drawing: &DrawnPiece, edge: &str) -> f64 {
     lengths(drawing).iter().find(|e| e.0 == edge).unwrap_or_else(|| panic!("{edge} in {:?}", lengths(drawing))).1
 }
 
@@ -205,7 +205,7 @@ fn pieces_come_in_the_order_of_the_drawing() {
 fn double_notches_on_slanted_edges_are_read_as_such() {
     let text = SAMPLE.replace("{side: [100]}", "{side: [40 double, 100 double, 160, 220 double]}");
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
-    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options::default());
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions::default());
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
     for piece in drawn(&from_svg(&cutting_svg("Sample", &sheet))) {
         let doubles: Vec<bool> = piece.notches.iter().map(|n| n.double).collect();
@@ -221,7 +221,8 @@ fn fish_eye_darts_come_back() {
     let text = SAMPLE.replacen("  back:\n", eyes, 1);
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
     for whole in [false, true] {
-        let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole, ..Options::default() });
+        let papers =
+            papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions { whole, ..CuttingOptions::default() });
         let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
         let svg = from_svg(&cutting_svg("Sample", &sheet));
         let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
@@ -267,15 +268,15 @@ seams:
 free: ['front.*', back.neck, back.shoulder, back.side, back.hem]
 ";
 
-fn sample() -> (Vec<Drawing>, Vec<Paper>) {
+fn sample() -> (Vec<DrawnPiece>, Vec<Paper>) {
     let loaded = read_text("sample", "sample.yaml", SAMPLE).expect("a garment");
     let drawings = drawings(&loaded.file, &loaded.garment);
-    let papers = papers(&drawings, &Options::default());
+    let papers = papers(&drawings, &CuttingOptions::default());
     (drawings, papers)
 }
 
 /// The outline begun at its upper left corner and moved there, sampled.
-fn outline(drawing: &Drawing) -> (Vec<Vec2>, f64, Path) {
+fn outline(drawing: &DrawnPiece) -> (Vec<Vec2>, f64, Path) {
     let whole = drawing.rings[0].iter().map(|e| e.path.clone()).reduce(|a, b| a.joined(&b)).expect("edges");
     let points = whole.sampled(1e-7);
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
@@ -283,7 +284,7 @@ fn outline(drawing: &Drawing) -> (Vec<Vec2>, f64, Path) {
     (points.iter().map(|p| p - low).collect(), whole.double_area() / 2.0, moved)
 }
 
-fn same_outlines(made: &Digitized, drawn_before: &[Drawing]) {
+fn same_outlines(made: &Digitized, drawn_before: &[DrawnPiece]) {
     let after = drawn(made);
     assert_eq!(after.len(), drawn_before.len());
     for before in drawn_before {
@@ -311,8 +312,8 @@ fn same_outlines(made: &Digitized, drawn_before: &[Drawing]) {
 }
 
 /// From the second's drawing to the first's.
-fn path_shift(before: &Drawing, again: &Drawing) -> Vec2 {
-    let low = |d: &Drawing| {
+fn path_shift(before: &DrawnPiece, again: &DrawnPiece) -> Vec2 {
+    let low = |d: &DrawnPiece| {
         let points: Vec<Vec2> = d.rings[0].iter().flat_map(|e| e.path.sampled(1e-6)).collect();
         points.iter().fold(points[0], |low, p| low.inf(p))
     };
@@ -328,7 +329,7 @@ fn an_exported_svg_is_read_back() {
     let again = drawn(&made);
     assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
     // What is written on the piece says so.
-    assert_eq!(again.iter().find(|p| p.name == "back").map(|p| &p.cut), Some(&Cut::Pair));
+    assert_eq!(again.iter().find(|p| p.name == "back").map(|p| &p.cut), Some(&CutKind::Pair));
 }
 
 /// What `make` draws is read back with its edges, notches and lines, and without the drawn outlines dashed below.
@@ -368,7 +369,7 @@ fn a_flattened_pattern_is_read_back() {
 #[test]
 fn pieces_drawn_left_and_right_are_a_pair() {
     let loaded = read_text("sample", "sample.yaml", SAMPLE).expect("a garment");
-    let whole = Options { whole: true, ..Options::default() };
+    let whole = CuttingOptions { whole: true, ..CuttingOptions::default() };
     let papers = papers(&drawings(&loaded.file, &loaded.garment), &whole);
     let names: Vec<&str> = papers.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["front", "back.L", "back.R"]);
@@ -377,8 +378,8 @@ fn pieces_drawn_left_and_right_are_a_pair() {
     let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     for made in [svg, dxf] {
         let pieces = drawn(&made);
-        let cuts: Vec<(&str, &Cut)> = pieces.iter().map(|p| (p.name.as_str(), &p.cut)).collect();
-        assert_eq!(cuts, [("front", &Cut::One), ("back", &Cut::Pair)]);
+        let cuts: Vec<(&str, &CutKind)> = pieces.iter().map(|p| (p.name.as_str(), &p.cut)).collect();
+        assert_eq!(cuts, [("front", &CutKind::One), ("back", &CutKind::Pair)]);
         // It lies where it begins, wherever on the sheet it was.
         let low = outline(&pieces[1]).2.start() - pieces[1].rings[0][0].path.start();
         assert!(low.norm() < EXACT, "{low}");
@@ -388,11 +389,17 @@ fn pieces_drawn_left_and_right_are_a_pair() {
         let text = format!(
             "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>{shapes}</svg>"
         );
-        drawn(&from_svg(&text)).into_iter().map(|p| p.cut).collect::<Vec<Cut>>()
+        drawn(&from_svg(&text)).into_iter().map(|p| p.cut).collect::<Vec<CutKind>>()
     };
-    assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 300 0 L 200 0 L 300 200 Z'/>"), [Cut::Pair]);
-    assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 200 0 L 300 0 L 200 200 Z'/>"), [Cut::One, Cut::One]);
-    assert_eq!(svg("<rect width='100' height='200'/><rect x='200' width='100' height='200'/>"), [Cut::One, Cut::One]);
+    assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 300 0 L 200 0 L 300 200 Z'/>"), [CutKind::Pair]);
+    assert_eq!(
+        svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 200 0 L 300 0 L 200 200 Z'/>"),
+        [CutKind::One, CutKind::One]
+    );
+    assert_eq!(
+        svg("<rect width='100' height='200'/><rect x='200' width='100' height='200'/>"),
+        [CutKind::One, CutKind::One]
+    );
 }
 
 /// A potholder and a cushion: corners rounded by one radius, by two, to a circle; lengths with units of their own.
@@ -456,7 +463,8 @@ fn legs_of_a_dart_have_no_allowance() {
     let text = SAMPLE
         .replace("  back:\n", "  back:\n    darts: [{name: bust, edge: side, at: 200, intake: 20, length: 70}]\n");
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
-    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
+    let papers =
+        papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions { whole: true, ..CuttingOptions::default() });
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
     let made = from_svg(&cutting_svg("Sample", &sheet));
     let back = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
@@ -478,8 +486,8 @@ fn labels_of_paths_on_a_layer_are_names_of_pieces() {
                 <path inkscape:label='left front' d='M 0 0 L 100 0 L 0 200 Z'/>\
                 <path inkscape:label='right front' d='M 300 0 L 200 0 L 300 200 Z'/>\
                 <path inkscape:label='yoke' d='M 0 220 H 100 V 300 H 0 Z'/></g></svg>";
-    let cuts: Vec<(String, Cut)> = drawn(&from_svg(text)).into_iter().map(|p| (p.name, p.cut)).collect();
-    assert_eq!(cuts, [("front".to_owned(), Cut::Pair), ("yoke".to_owned(), Cut::One)]);
+    let cuts: Vec<(String, CutKind)> = drawn(&from_svg(text)).into_iter().map(|p| (p.name, p.cut)).collect();
+    assert_eq!(cuts, [("front".to_owned(), CutKind::Pair), ("yoke".to_owned(), CutKind::One)]);
 }
 
 #[test]
@@ -567,11 +575,11 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
         drawn(&from_svg(&text)).remove(0).cut
     };
     for pair in ["Cut 1 pair", "Sleeve – cut 2 (left and right), shell", "CUT 2 MIRRORED"] {
-        assert_eq!(cut(pair), Cut::Pair, "{pair}");
+        assert_eq!(cut(pair), CutKind::Pair, "{pair}");
     }
-    assert_eq!(cut("cut: 4, lining"), Cut::Count(4));
+    assert_eq!(cut("cut: 4, lining"), CutKind::Count(4));
     for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
-        assert_eq!(cut(once), Cut::One, "{once}");
+        assert_eq!(cut(once), CutKind::One, "{once}");
     }
 }
 
@@ -587,7 +595,7 @@ fn what_is_written_on_a_piece_says_that_it_lies_on_the_fold() {
     let grain = "<path class='grain' d='M 150 50 V 250'/>";
     for words in ["cut 1 on fold", "Front – CUT 1 ON THE FOLD", "cut 2 on fold"] {
         let drawing = made(words, grain);
-        assert_eq!(drawn(&drawing)[0].cut, Cut::Fold("d".to_owned()), "{words}");
+        assert_eq!(drawn(&drawing)[0].cut, CutKind::Fold("d".to_owned()), "{words}");
         let [said] = &drawing.notes[..] else { panic!("{:?}", drawing.notes) };
         assert!(said.contains("edge 'd' is taken for that"), "{said}");
         assert_eq!(said.contains("cut 2 times"), words.contains('2'), "{said}");
@@ -595,7 +603,7 @@ fn what_is_written_on_a_piece_says_that_it_lies_on_the_fold() {
     }
     // Four straight edges, and nothing that tells one from the other.
     let unknown = made("cut 1 on fold", "");
-    assert_eq!(drawn(&unknown)[0].cut, Cut::One);
+    assert_eq!(drawn(&unknown)[0].cut, CutKind::One);
     assert!(unknown.notes[0].contains("say at which edge, 'cut: fold EDGE'"), "{:?}", unknown.notes);
     // A line that is drawn says it better.
     let drawn_line = made("cut 1 on fold", "<path class='fold' d='M 100 0 L 100 300'/>");
@@ -698,7 +706,7 @@ fn an_exported_dxf_is_read_back() {
     let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     same_outlines(&made, &drawings);
     let pair = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
-    assert_eq!(pair.cut, Cut::Pair);
+    assert_eq!(pair.cut, CutKind::Pair);
     // Curves are curves again, not the hundreds of points that the format makes of them.
     let segments: usize = drawn(&made).iter().flat_map(|p| &p.rings[0]).map(|e| e.path.joints().len() - 1).sum();
     assert!(segments < 40, "{segments}");
@@ -716,7 +724,7 @@ fn notched(waist: &str, wide: f64, more: &str) -> String {
 /// The first piece of a garment as it is read back from its SVG and its DXF.
 fn read_back(text: &str) -> [PieceFile; 2] {
     let loaded = read_text("sample", "sample.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options::default());
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions::default());
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
     let svg = from_svg(&cutting_svg("Sample", &sheet));
     let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
@@ -789,7 +797,8 @@ fn narrow_darts_and_pleats_of_an_export_come_back() {
 fn double_notches_beside_the_fold_of_a_whole_piece_stay_where_they_are() {
     let text = notched("L 200 0", 10.0, "cut: fold center\n    notches: {waist: [3 double]}");
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
-    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
+    let papers =
+        papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions { whole: true, ..CuttingOptions::default() });
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
     let svg = from_svg(&cutting_svg("Sample", &sheet));
     let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);

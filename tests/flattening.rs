@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use toile::flatten::{
-    FlattenError, Flattened, Mode, Options, flatten, flatten_between, flatten_from, flatten_garment, rim_crossings,
+    FlattenError, FlattenOptions, Flattened, Mode, flatten, flatten_between, flatten_from, flatten_garment,
+    rim_crossings,
 };
 use toile::geometry::{TriMesh, Vec2, Vec3, rim_loops};
 use toile::input::LengthUnit;
@@ -19,8 +20,8 @@ use toile::pipeline::{SurfaceOptions, flatten_surface};
 
 const MODES: [Mode; 5] = [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Woven, Mode::Spring];
 
-fn mode(mode: Mode) -> Options {
-    Options { mode, ..Options::default() }
+fn mode(mode: Mode) -> FlattenOptions {
+    FlattenOptions { mode, ..FlattenOptions::default() }
 }
 
 /// A grid of `nx` × `ny` cells with alternating diagonals, counter-clockwise in its parameters, keeping the cells that
@@ -103,7 +104,7 @@ fn cylinder_and_cone_are_exact_to_their_chords() {
         Vec3::new(0.6 * r * turn.cos(), 0.6 * r * turn.sin(), 0.8 * r)
     });
     for (mesh, area) in [(cylinder, 0.3 * 0.4), (cone, 0.5 * 0.6 * 3.0 * (0.16 - 0.01))] {
-        let flat = flatten(&mesh, &Options::default()).unwrap();
+        let flat = flatten(&mesh, &FlattenOptions::default()).unwrap();
         assert_sound(&mesh, &flat);
         assert!(flat.report.largest_edge_error < 2e-3, "{:?}", flat.report);
         assert!(flat.report.area_error < 1e-4 && flat.report.boundary_error < 1e-4, "{:?}", flat.report);
@@ -177,7 +178,7 @@ fn a_lens_hole_is_kept_from_the_drawn_start() {
         assert!(flat.report.converged && flat.report.boundary_error < 0.03, "{m:?} {:?}", flat.report);
     }
     // The same without the drawing.
-    let flat = flatten(&rolled, &Options::default()).unwrap();
+    let flat = flatten(&rolled, &FlattenOptions::default()).unwrap();
     assert_sound(&rolled, &flat);
     assert!(flat.report.largest_rim_error < 1e-4 && flat.report.strain_max < 2e-3, "{:?}", flat.report);
 }
@@ -208,7 +209,7 @@ fn rings_are_laid_flat_with_every_rim() {
             t.iter_mut().filter(|v| **v == middle(j)).for_each(|v| *v = twin);
         }
     }
-    let flat = flatten(&bulge, &Options::default()).unwrap();
+    let flat = flatten(&bulge, &FlattenOptions::default()).unwrap();
     assert_eq!((flips(&bulge, &flat.positions), flat.report.overlaps), (0, 0));
     assert!(flat.report.largest_rim_error < 1e-3 && flat.report.rim_missed.is_none(), "{:?}", flat.report);
 }
@@ -219,23 +220,23 @@ fn what_is_no_disk_is_named() {
     let broken = |change: &dyn Fn(&mut TriMesh)| {
         let mut mesh = flat.clone();
         change(&mut mesh);
-        flatten(&mesh, &Options::default()).unwrap_err()
+        flatten(&mesh, &FlattenOptions::default()).unwrap_err()
     };
-    assert_eq!(flatten(&TriMesh::default(), &Options::default()), Err(FlattenError::Empty));
+    assert_eq!(flatten(&TriMesh::default(), &FlattenOptions::default()), Err(FlattenError::Empty));
     assert_eq!(broken(&|m| m.vertices[4].x = f64::NAN), FlattenError::NotFinite(4));
     assert_eq!(broken(&|m| m.vertices.push(Vec3::zeros())), FlattenError::LooseVertex(16));
     assert_eq!(broken(&|m| m.triangles[0].swap(0, 1)), FlattenError::Misoriented(0, 1));
     assert!(matches!(broken(&|m| m.triangles[2][1] = 99), FlattenError::MissingVertex { vertex: 99, .. }));
     assert!(matches!(broken(&|m| m.vertices[1] = m.vertices[0]), FlattenError::Degenerate(_)));
     let hole = sheet(3, 3, |i, j| (i, j) != (1, 1), |u, v| Vec3::new(u, v, 0.0));
-    assert!(flatten(&hole, &Options::default()).unwrap().report.largest_edge_error < 1e-9);
+    assert!(flatten(&hole, &FlattenOptions::default()).unwrap().report.largest_edge_error < 1e-9);
     let touching = sheet(2, 2, |i, j| i == j, |u, v| Vec3::new(u, v, 0.0));
-    assert_eq!(flatten(&touching, &Options::default()), Err(FlattenError::NonManifoldVertex(2)));
+    assert_eq!(flatten(&touching, &FlattenOptions::default()), Err(FlattenError::NonManifoldVertex(2)));
     let apart = sheet(3, 1, |i, _| i != 1, |u, v| Vec3::new(u, v, 0.0));
-    assert_eq!(flatten(&apart, &Options::default()), Err(FlattenError::Components(2)));
+    assert_eq!(flatten(&apart, &FlattenOptions::default()), Err(FlattenError::Components(2)));
     let [a, b, c, d] = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
     let closed = TriMesh { vertices: vec![a, b, c, d], triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
-    let error = flatten(&closed, &Options::default()).unwrap_err();
+    let error = flatten(&closed, &FlattenOptions::default()).unwrap_err();
     assert_eq!(error, FlattenError::Closed);
     assert!(error.to_string().contains("cut it first"));
 }
@@ -271,7 +272,7 @@ fn pointed_cones_are_laid_flat_in_every_mode() {
 
 #[test]
 fn a_rim_that_cannot_be_kept_is_said_not_to_be() {
-    let of = |degrees| flatten(&cap(24, f64::to_radians(degrees), 0.1), &Options::default()).unwrap().report;
+    let of = |degrees| flatten(&cap(24, f64::to_radians(degrees), 0.1), &FlattenOptions::default()).unwrap().report;
     assert_eq!((of(90.0).rim_missed, of(90.0).converged), (None, true));
     let closed_up = of(172.0);
     assert!(closed_up.rim_missed.is_some_and(|missed| missed > 1e-3) && !closed_up.converged, "{closed_up:?}");
@@ -322,7 +323,7 @@ fn crossings(mesh: &TriMesh, flat: &[Vec2]) -> usize {
 #[test]
 fn what_is_kept_from_lying_on_itself_keeps_its_rim_or_is_left_as_it_is() {
     for wave in [0.0, 0.004, 0.006, 0.008, 0.014] {
-        let report = flatten(&frill(0.75, wave), &Options::default()).unwrap().report;
+        let report = flatten(&frill(0.75, wave), &FlattenOptions::default()).unwrap().report;
         assert_eq!(report.flips, 0);
         assert!(report.rim_missed.is_none_or(|missed| missed < 1e-3), "{wave}: {report:?}");
         assert!(wave > 0.0 || report.overlaps == 0, "{report:?}");
@@ -334,7 +335,7 @@ fn a_frill_comes_to_rest_beside_itself_with_its_rim() {
     // The second would lie on itself where nothing keeps it from that.
     for wave in [0.008, 0.01] {
         let mesh = frill(0.8, wave);
-        let flat = flatten(&mesh, &Options::default()).unwrap();
+        let flat = flatten(&mesh, &FlattenOptions::default()).unwrap();
         let report = &flat.report;
         println!("{wave}: {} steps, strain {}", report.iterations, report.strain_p99);
         assert_eq!((crossings(&mesh, &flat.positions), report.overlaps, report.flips), (0, 0, 0), "{report:?}");
@@ -345,8 +346,8 @@ fn a_frill_comes_to_rest_beside_itself_with_its_rim() {
 #[test]
 fn repeats_are_bit_identical() {
     let mesh = cap(24, 1.2, 0.1);
-    let once = flatten(&mesh, &Options::default()).unwrap();
-    assert_eq!(once, flatten(&mesh, &Options::default()).unwrap());
+    let once = flatten(&mesh, &FlattenOptions::default()).unwrap();
+    assert_eq!(once, flatten(&mesh, &FlattenOptions::default()).unwrap());
 }
 
 /// Two panels of the given widths (cells of 10 mm across, `rows` down), the first's right edge sewn to the second's
@@ -411,7 +412,7 @@ fn a_rolled_garment_comes_back_as_drawn() {
             Vec3::new(0.2 * (x / 0.2).sin(), -cloth.flat[v].y, 0.2 * (x / 0.2).cos())
         })
         .collect();
-    let flat = flatten_garment(&cloth, &[seam(Give::Even)], &draped, &Options::default()).unwrap();
+    let flat = flatten_garment(&cloth, &[seam(Give::Even)], &draped, &FlattenOptions::default()).unwrap();
     for (p, q) in flat.positions.iter().zip(&cloth.flat) {
         assert!((p - q).norm() < 1e-4);
     }
@@ -420,9 +421,9 @@ fn a_rolled_garment_comes_back_as_drawn() {
         assert!(piece.report.area_error < 1e-3 && piece.report.boundary_error < 1e-3);
     }
     let nan = vec![Vec3::repeat(f64::NAN); cloth.flat.len()];
-    let error = flatten_garment(&cloth, &[], &nan, &Options::default()).unwrap_err();
+    let error = flatten_garment(&cloth, &[], &nan, &FlattenOptions::default()).unwrap_err();
     assert!(error.to_string().starts_with("piece 'left'"), "{error}");
-    assert!(flatten_garment(&cloth, &[], &nan[1..], &Options::default()).is_err());
+    assert!(flatten_garment(&cloth, &[], &nan[1..], &FlattenOptions::default()).is_err());
 }
 
 #[test]
@@ -445,7 +446,7 @@ fn seams_get_equal_lengths_or_their_drawn_ratio() {
                 Vec3::new(p.x, p.y * scale, 0.0)
             })
             .collect();
-        let flat = flatten_garment(&cloth, &[seam(give)], &draped, &Options::default()).unwrap();
+        let flat = flatten_garment(&cloth, &[seam(give)], &draped, &FlattenOptions::default()).unwrap();
         let [a, b] = [0, 1].map(|side| seam_length(&cloth, &flat.positions, side));
         println!("{give:?}: {a} {b} ratio {}", b / a);
         assert!((b / a / ratio - 1.0).abs() < 2e-5, "{give:?}: {a} {b}");
@@ -468,7 +469,7 @@ fn a_strip_gathered_to_a_sixth_comes_back_straight() {
             Vec3::new(p.x, p.y / 6.0, fold * 0.01 * (1.0f64 - 1.0 / 36.0).sqrt())
         })
         .collect();
-    let flat = flatten_garment(&cloth, &[seam(Give::Gather(6.0))], &draped, &Options::default()).unwrap();
+    let flat = flatten_garment(&cloth, &[seam(Give::Gather(6.0))], &draped, &FlattenOptions::default()).unwrap();
     assert!(flat.pieces.iter().all(|p| p.report.overlaps == 0 && p.report.converged), "{:?}", flat.pieces[0].report);
     let off = flat.positions.iter().zip(&cloth.flat).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
     assert!(off < 5e-3, "{:.1} mm off", 1e3 * off);
@@ -557,7 +558,7 @@ fn a_weave_shears_by_thirty_degrees_at_most_and_its_threads_stay() {
     assert!(r.threads.shear_max.to_degrees() < 30.0, "{r:?}");
     assert!(r.largest_rim_error < 1e-4, "{r:?}");
     let other = flatten(&mesh, &mode(Mode::Balanced)).unwrap().report;
-    let most = |r: &toile::flatten::Report| r.threads.warp.max(r.threads.weft);
+    let most = |r: &toile::flatten::FlatReport| r.threads.warp.max(r.threads.weft);
     println!("woven {:?}, balanced {:?}", r.threads, other.threads);
     assert!(most(r) < 0.01 && most(r) < 0.3 * most(&other), "{:?} {:?}", r.threads, other.threads);
     // A dome's rim is too short for its cloth, so the threads alone count.
@@ -858,7 +859,7 @@ fn woven_partners_keep_one_length() {
 #[test]
 fn corners_resist_as_much_as_is_asked() {
     let mesh = front(40);
-    let worst = |corners: f64| flatten(&mesh, &Options { corners, ..Options::default() }).unwrap().report;
+    let worst = |corners: f64| flatten(&mesh, &FlattenOptions { corners, ..FlattenOptions::default() }).unwrap().report;
     let [free, usual, stiff] = [0.0, 1.0, 10.0].map(worst);
     println!("{} {} {}", free.corner_change, usual.corner_change, stiff.corner_change);
     assert!(free.corner_change > usual.corner_change && usual.corner_change > stiff.corner_change);
@@ -916,7 +917,7 @@ fn a_bodice_is_as_good_as_the_best_known() {
     let free = flatten(&mesh, &mode(Mode::Isometric)).unwrap();
     assert_sound(&mesh, &free);
     assert!(free.report.distortion < 0.0669 && free.report.area_error < 0.0045, "{:?}", free.report);
-    let balanced = flatten(&mesh, &Options::default()).unwrap();
+    let balanced = flatten(&mesh, &FlattenOptions::default()).unwrap();
     assert_sound(&mesh, &balanced);
     assert!(balanced.report.boundary_error < 1e-5 && balanced.report.area_distortion < 0.012, "{:?}", balanced.report);
     assert!(balanced.report.distortion < 0.11, "{:?}", balanced.report);

@@ -7,7 +7,7 @@ mod mutate;
 use std::time::{Duration, Instant};
 
 use mutate::{Mutator, Source};
-use toile::cutting::{Options, papers};
+use toile::cutting::{CuttingOptions, papers};
 use toile::digitize::{Digitized, garment_file};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
@@ -238,7 +238,7 @@ free: ['*.*']
 #[test]
 fn drawings_in_dxf() {
     let loaded = garment::read_text("garment", "garment.yaml", FOLDED).expect("a garment");
-    let seed = cutting_dxf("seed", &papers(&drawings(&loaded.file, &loaded.garment), &Options::default()));
+    let seed = cutting_dxf("seed", &papers(&drawings(&loaded.file, &loaded.garment), &CuttingOptions::default()));
     let words = [
         "\n0\nPOLYLINE\n",
         "\n0\nVERTEX\n",

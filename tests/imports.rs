@@ -5,7 +5,7 @@ use toile::digitize::{Digitized, Drawing, garment_file};
 use toile::io::dxf_read::{DxfOptions, read_dxf, read_dxf_text, read_dxf_text_as};
 use toile::io::garment::{read_text, write};
 use toile::io::svg_read::{SvgOptions, read_svg_text, read_svg_text_as};
-use toile::pattern::{Cut, DartShape, PieceFile, drawings};
+use toile::pattern::{CutKind, DartShape, PieceFile, drawings};
 
 /// A drawing of so many millimetres.
 fn svg(width: f64, height: f64, inside: &str) -> String {
@@ -291,7 +291,7 @@ fn a_pair_that_is_cut_several_times_is_several_pairs() {
     let file = made(&read(&svg(160.0, 100.0, piece)));
     let names: Vec<&str> = file.file.pieces.iter().map(|p| p.name.value.as_str()).collect();
     assert_eq!(names, ["tab", "tab_2", "tab_3"]);
-    assert_eq!(file.file.pieces[0].cut.as_ref().map(|c| &c.value), Some(&Cut::Pair));
+    assert_eq!(file.file.pieces[0].cut.as_ref().map(|c| &c.value), Some(&CutKind::Pair));
     assert!(file.file.pieces[1..].iter().all(|p| p.like.as_ref().is_some_and(|l| l.value == "tab")));
     assert!(says(&file.notes, &["3 times", "3 left and 3 right"]), "{:?}", file.notes);
 }
@@ -309,7 +309,7 @@ fn a_fold_is_whole_where_it_is_interrupted() {
     let notched = fold("M 20 20 H 180 V 320 H 20 Z", notch);
     let piece = pieces(&notched).remove(0);
     let outline = piece.outline.expect("an outline");
-    let Some(Cut::Fold(edge)) = piece.cut.map(|c| c.value) else { panic!("no fold") };
+    let Some(CutKind::Fold(edge)) = piece.cut.map(|c| c.value) else { panic!("no fold") };
     assert!(outline.edges.len() == 4 && outline.edges.iter().any(|e| e.0.value == edge), "{:?}", outline.edges);
     assert_areas(&notched, &[("front", 480.0)]);
     // The opening is 60 mm deep and 100 mm wide in the middle of the fold.
@@ -329,7 +329,7 @@ fn an_outline_may_be_open_at_its_fold() {
     let drawing = read(&svg(240.0, 420.0, inside));
     assert_areas(&drawing, &[("front", 0.5 * (180.0 + 200.0) * 380.0 / 100.0)]);
     let piece = pieces(&drawing).remove(0);
-    assert_eq!(piece.cut.map(|c| c.value), Some(Cut::Fold("fold".to_owned())));
+    assert_eq!(piece.cut.map(|c| c.value), Some(CutKind::Fold("fold".to_owned())));
     assert_eq!(piece.lines.len(), 1);
 }
 
@@ -339,7 +339,7 @@ fn a_second_fold_is_said() {
                   <path class='fabric' d='M 120 20 A 100 100 0 0 1 20 120 V 320 A 300 300 0 0 0 320 20 Z'/>\
                   <path class='fold' d='M 20 120 V 320'/><path class='fold' d='M 120 20 H 320'/></g>";
     let file = made(&read(&svg(340.0, 340.0, inside)));
-    assert!(matches!(file.file.pieces[0].cut.as_ref().map(|c| &c.value), Some(Cut::Fold(_))));
+    assert!(matches!(file.file.pieces[0].cut.as_ref().map(|c| &c.value), Some(CutKind::Fold(_))));
     assert!(says(&file.notes, &["'flounce'", "two folds"]), "{:?}", file.notes);
 }
 
@@ -613,7 +613,7 @@ fn texts_of_several_lines_are_read_without_their_looks() {
     let text = "0\nMTEXT\n8\n1\n10\n30\n20\n30\n3\n{\\fArial|b0;Piece Name: CO\n1\nLLAR\\PQuantity: 1,1}\n";
     let all = text.to_owned() + &line(1, true, &[[0.0, 0.0], [200.0, 0.0], [230.0, 60.0], [10.0, 60.0]]);
     let drawing = from_dxf(&dxf(&block("B1", &[], &all), ""));
-    assert_eq!((drawing.pieces[0].name.as_str(), &drawing.pieces[0].cut_how), ("COLLAR", &Some(Cut::Pair)));
+    assert_eq!((drawing.pieces[0].name.as_str(), &drawing.pieces[0].cut_how), ("COLLAR", &Some(CutKind::Pair)));
 }
 
 // The program

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use toile::geometry::{Topology, Vec3};
 use toile::io::garment::{read_text, write};
-use toile::mannequin::{Mannequin, MannequinSpec, Measures, PartKind, Place, build_measured, check_body};
+use toile::mannequin::{FilePlace, Mannequin, MannequinSpec, Measures, PartKind, build_measured, check_body};
 use toile::pipeline::{Job, Overrides};
 
 /// Measures of girth with the part and the landmark where a tape goes round.
@@ -81,7 +81,7 @@ fn every_girth_that_is_given_is_met_on_the_surface() {
             }
             let topology = Topology::new(&body.mesh.triangles);
             prop_assert!(topology.rim_edges().next().is_none() && topology.non_manifold.is_empty());
-            let check = check_body(&body.mesh, Place::millimetres).expect("a body");
+            let check = check_body(&body.mesh, FilePlace::millimetres).expect("a body");
             prop_assert!(check.crossings.is_none(), "{given:?} crosses itself {:?}", check.crossings);
             Ok(())
         });

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use approx::assert_relative_eq;
-use toile::fabric::measure::{MeasureError, Measured, Photo, fabric_yaml, measure};
+use toile::fabric::measure::{MeasureError, MeasuredFabric, Photo, fabric_yaml, measure};
 use toile::fabric::{library, load, sheet};
 
 /// Readings of one test whose mean over `initial` is `mean` and lies at the share `normalised` between the smallest and
@@ -37,7 +37,7 @@ impl Room {
         path
     }
 
-    fn measure(&self, text: &str) -> Result<Measured, MeasureError> {
+    fn measure(&self, text: &str) -> Result<MeasuredFabric, MeasureError> {
         measure(&self.file("readings.yaml", text), "mine")
     }
 
@@ -47,7 +47,7 @@ impl Room {
     }
 
     /// The fabric written and read again.
-    fn again(&self, made: &Measured) -> toile::fabric::Fabric {
+    fn again(&self, made: &MeasuredFabric) -> toile::fabric::Fabric {
         let path = self.file("made.yaml", fabric_yaml(&made.sheet));
         load(&path.display().to_string()).expect("the file is a fabric")
     }

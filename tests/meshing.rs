@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use proptest::prelude::*;
 use toile::geometry::{Path, Topology, Vec2, Vec3};
 use toile::mesh::{
-    ClothMesh, MeshError, MeshOptions, Method, PieceMesh, SeamFault, SpringClass, Transfer, build, build_with, check,
+    ClothMesh, MeshError, MeshMethod, MeshOptions, PieceMesh, SeamFault, SpringClass, Transfer, build, build_with,
+    check,
 };
 use toile::pattern::{Edge, EdgeId, Garment, Give, Line, LineKind, Piece, Seam, SeamKind, Span};
 
@@ -429,7 +430,7 @@ fn four_curved_sides_can_be_meshed_by_coons_interpolation() {
         side("left", -30.0, 170.0, "L 0 0"),
     ];
     let garment = garment(vec![piece("gore", vec![sides])], vec![]);
-    let mesh = build_with(&garment, &MeshOptions { spacing: 0.01, method: Method::Coons }).expect("mesh");
+    let mesh = build_with(&garment, &MeshOptions { spacing: 0.01, method: MeshMethod::Coons }).expect("mesh");
     check(&mesh, &garment).expect("promises kept");
     let edges = &mesh.pieces[0].edges;
     assert_eq!(edges[0].particles.len(), edges[2].particles.len());
@@ -471,7 +472,7 @@ fn a_narrow_piece_askew_to_the_grain_takes_no_more_than_its_cloth() {
     let corners = [(0.0, 0.0), (4e3, 0.0), (1e4, 0.0), (1e4, 0.3), (3e3, 0.3), (0.0, 0.3)];
     let strip = piece("strip", vec![polygon(&corners.map(|(along, across)| askew(along, across)))]);
     let cloth = garment(vec![strip], vec![]);
-    let mesh = build_with(&cloth, &MeshOptions { spacing: 1e-4, method: Method::Grid }).expect("mesh");
+    let mesh = build_with(&cloth, &MeshOptions { spacing: 1e-4, method: MeshMethod::Grid }).expect("mesh");
     assert!((300_000..700_000).contains(&mesh.flat.len()), "{}", mesh.flat.len());
 }
 

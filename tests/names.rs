@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use toile::io::garment::{read, read_file_only, read_text, write};
 use toile::mesh::ClothMesh;
 use toile::pattern::{
-    AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, Located, PieceFile, PleatFile, SeamFile,
+    AllowanceFile, ClosureFile, CutKind, DartFile, DartShape, GarmentFile, Located, PieceFile, PleatFile, SeamFile,
     TestFile, Value,
 };
 use toile::pipeline::{Job, Overrides};
@@ -56,7 +56,7 @@ fn rename_piece(piece: &mut PieceFile, fabrics: &BTreeSet<String>) {
     rename(&mut piece.name);
     rename_all(&mut piece.like);
     rename_all(piece.fabric.as_mut().filter(|fabric| fabrics.contains(&fabric.value)));
-    if let Some(Located { value: Cut::Fold(edge), .. }) = &mut piece.cut {
+    if let Some(Located { value: CutKind::Fold(edge), .. }) = &mut piece.cut {
         *edge = other(edge);
     }
     if let Some(AllowanceFile::Edges(edges)) = &mut piece.allowance {

@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use toile::geometry::{Path as Curve, TriMesh, Vec2, Vec3};
 use toile::picture::{
-    HEIGHT, PatternEdge, PatternPiece, PictureError, PictureLayout, Scale, Scene, Specimen, Turning, View, WIDTH, draw,
-    draw_pattern, draw_sheet, draw_turning, rim_lines, seam_color,
+    HEIGHT, PatternEdge, PatternPiece, PictureError, PictureLayout, Scale, Scene, Specimen, Turning, ViewSide, WIDTH,
+    draw, draw_pattern, draw_sheet, draw_turning, rim_lines, seam_color,
 };
 use toile::pipeline::{StartPicture, check, start_picture};
 
@@ -425,16 +425,16 @@ fn square() -> TriMesh {
 fn size_and_views_are_those_asked_for() {
     let cloth = square();
     // Columns of the middle row that show its right side, which is blue.
-    let seen = |views: Vec<View>| {
+    let seen = |views: Vec<ViewSide>| {
         let png = draw(&scene(&cloth, None), &PictureLayout { size: [900, 600], views }).expect("a scene");
         let (width, pixels) = read(&png);
         assert_eq!((width, pixels.len()), (900, 900 * 600));
         pixels[300 * 900..301 * 900].iter().filter(|p| i32::from(p[2]) - i32::from(p[0]) > 20).count()
     };
-    let (one, two) = (seen(vec![View::Front]), seen(vec![View::Front, View::Back, View::Right]));
+    let (one, two) = (seen(vec![ViewSide::Front]), seen(vec![ViewSide::Front, ViewSide::Back, ViewSide::Right]));
     // Both sides are seen, each a little smaller for the room of the others.
     assert!(one > 200 && two > one && two < 2 * one, "{one} and {two} columns");
-    assert_eq!(seen(vec![View::Left, View::Right]), 0, "from the sides it is an edge");
+    assert_eq!(seen(vec![ViewSide::Left, ViewSide::Right]), 0, "from the sides it is an edge");
 }
 
 #[test]

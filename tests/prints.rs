@@ -1,6 +1,6 @@
 //! What is printed beside the lines: labels off the joins of pages, squares to measure, layers, the order of sewing.
 
-use toile::cutting::{Label, Layout, Options, Paper, Sheet, labelled, sewing_order};
+use toile::cutting::{CuttingOptions, Label, Layout, Paper, Sheet, labelled, sewing_order};
 use toile::geometry::Vec2;
 use toile::io::garment::{Loaded, read_text};
 use toile::io::pdf_write::{Page, booklet, one_page};
@@ -45,7 +45,7 @@ fn loaded(text: &str) -> Loaded {
 
 fn papers(loaded: &Loaded) -> Vec<Paper> {
     let label = Label { title: "Bodice".into(), wearer: Some("Ada".into()), date: None };
-    labelled(&drawings(&loaded.file, &loaded.garment), &Options::default(), &label)
+    labelled(&drawings(&loaded.file, &loaded.garment), &CuttingOptions::default(), &label)
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Garments drawn as patterns for cutting and read back from them: what the formats have no lines for comes, too.
 
-use toile::cutting::{Layout, Options, Paper, Sheet, papers};
+use toile::cutting::{CuttingOptions, Layout, Paper, Sheet, papers};
 use toile::digitize::{Digitized, garment_file};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::{Loaded, read_text, write};
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
-use toile::pattern::{Cut, Drawing, DrawnEdge, LineKind, Side, drawings};
+use toile::pattern::{CutKind, DrawnEdge, DrawnPiece, LineKind, Side, drawings};
 
 /// A hundredth of a millimetre, metres.
 const EXACT: f64 = 1e-5;
@@ -16,13 +16,13 @@ fn read(text: &str) -> Loaded {
     read_text("garment", "garment.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-fn drawn(text: &str) -> Vec<Drawing> {
+fn drawn(text: &str) -> Vec<DrawnPiece> {
     let loaded = read(text);
     drawings(&loaded.file, &loaded.garment)
 }
 
 fn on_paper(text: &str) -> Vec<Paper> {
-    papers(&drawn(text), &Options::default())
+    papers(&drawn(text), &CuttingOptions::default())
 }
 
 fn sheet(papers: &[Paper]) -> Sheet {
@@ -39,7 +39,7 @@ fn both_ways(text: &str) -> [Digitized; 2] {
 }
 
 /// What a made file draws.
-fn again(made: &Digitized) -> Vec<Drawing> {
+fn again(made: &Digitized) -> Vec<DrawnPiece> {
     drawn(&write(&made.file).expect("YAML"))
 }
 
@@ -69,7 +69,7 @@ pieces:
 }
 
 /// Length of the hole's rim and its allowance, metres.
-fn hole(drawing: &Drawing) -> (f64, Option<f64>) {
+fn hole(drawing: &DrawnPiece) -> (f64, Option<f64>) {
     assert_eq!(drawing.rings.len(), 2, "one hole");
     let [edge] = drawing.rings[1].as_slice() else { panic!("of one edge") };
     assert_eq!(edge.name, "win");
@@ -148,11 +148,11 @@ fn darts_lines_pleats_and_sides_come_back() {
     for (made, format) in both_ways(SHAPED).iter().zip(["SVG", "DXF"]) {
         let yaml = write(&made.file).expect("YAML");
         let after = again(made);
-        let same = |old: &Drawing| after.iter().find(|new| new.name == old.name).expect("the piece");
+        let same = |old: &DrawnPiece| after.iter().find(|new| new.name == old.name).expect("the piece");
         for (old, new) in before.iter().map(|old| (old, same(old))) {
             // The edge on the fold is drawn as that, without its name.
-            let on_fold = |d: &Drawing, e: &DrawnEdge| d.fold.is_some_and(|f| d.rings[0][f].name == e.name);
-            let cut = if old.fold.is_some() { &Cut::Fold("fold".to_owned()) } else { &old.cut };
+            let on_fold = |d: &DrawnPiece, e: &DrawnEdge| d.fold.is_some_and(|f| d.rings[0][f].name == e.name);
+            let cut = if old.fold.is_some() { &CutKind::Fold("fold".to_owned()) } else { &old.cut };
             assert_eq!((new.drawn, &new.cut), (Side::Right, cut), "{format}\n{yaml}");
             assert_eq!(new.rings[0].len(), old.rings[0].len(), "{format}\n{yaml}");
             for edge in old.rings[0].iter().filter(|e| !on_fold(old, e)) {
@@ -163,7 +163,7 @@ fn darts_lines_pleats_and_sides_come_back() {
                 assert!((a - b).abs() < EXACT, "{format} {}: {a} {b}\n{yaml}", edge.name);
             }
             assert_eq!((new.darts.len(), new.notches.len()), (old.darts.len(), old.notches.len()), "{format}\n{yaml}");
-            let folds = |d: &Drawing| -> Vec<(String, i64, i64)> {
+            let folds = |d: &DrawnPiece| -> Vec<(String, i64, i64)> {
                 let mm = |x: f64| (x * 1e5).round() as i64;
                 let row = |f: &toile::pattern::DrawnFold| (d.edge(f.edge).name.clone(), mm(f.from), mm(f.to));
                 let mut rows: Vec<_> = d.folds.iter().map(row).collect();
@@ -171,14 +171,14 @@ fn darts_lines_pleats_and_sides_come_back() {
                 rows
             };
             assert_eq!(folds(new), folds(old), "{format}\n{yaml}");
-            let lines = |d: &Drawing| -> Vec<(String, LineKind)> {
+            let lines = |d: &DrawnPiece| -> Vec<(String, LineKind)> {
                 d.lines.iter().map(|l| (l.name.clone(), l.kind.clone())).collect()
             };
             assert_eq!(lines(new), lines(old), "{format}\n{yaml}");
         }
         assert!(made.notes.is_empty(), "{format}: {:?}", made.notes);
     }
-    let pair = before.iter().find(|d| d.cut == Cut::Pair).expect("a pair");
+    let pair = before.iter().find(|d| d.cut == CutKind::Pair).expect("a pair");
     assert!(pair.folds.is_empty() && pair.darts.len() == 1 && before[1].folds.len() == 3);
 }
 
@@ -315,9 +315,9 @@ pieces:
     outline: {start: 0 40, rim: A 40 40 0 0 1 80 40 A 40 40 0 0 1 0 40}
 free: ['*.*']
 ";
-    let edges = |drawings: &[Drawing]| -> Vec<(String, String, i64, Option<i64>)> {
+    let edges = |drawings: &[DrawnPiece]| -> Vec<(String, String, i64, Option<i64>)> {
         let tenths = |x: f64| (x * 1e4).round() as i64;
-        let of = |d: &Drawing| {
+        let of = |d: &DrawnPiece| {
             let edge = |e: &DrawnEdge| {
                 (d.name.clone(), e.name.clone(), tenths(e.path.length()), e.allowance.width.map(tenths))
             };

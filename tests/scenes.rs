@@ -6,7 +6,7 @@ use toile::drape::{DrapeOptions, Until, drape};
 use toile::dynamics::GRIP;
 use toile::geometry::Vec3;
 use toile::pipeline::{Job, Overrides, Run, read};
-use toile::report::{Contact, Report};
+use toile::report::{ContactReport, Report};
 use toile::sew::{SewOptions, place, sew, sewn_world};
 
 /// The scene at `spacing` mm.
@@ -27,7 +27,7 @@ fn rests<'a>(name: &str, job: &'a Job) -> (Run<'a>, Report) {
     let mut run = Run::new(job);
     run.drape(&mut |_, _| {}).expect(name);
     let report = run.report();
-    assert_eq!(report.contact, Contact::default(), "{name}: {:?}", report.crossings);
+    assert_eq!(report.contact, ContactReport::default(), "{name}: {:?}", report.crossings);
     let drape = report.stages.iter().find(|s| s.name == "drape").expect("draped");
     assert!(drape.converged, "{name}: still drifts by {:?} mm after {} steps", drape.drift, drape.iterations);
     (run, report)
@@ -158,7 +158,7 @@ fn a_skirt_is_worn_over_a_skirt() {
     let mut sewn = Run::new(&job);
     sewn.sew(&mut |_, _| {}).expect(name);
     let report = sewn.report();
-    assert_eq!(report.contact, Contact::default(), "as sewn: {:?}", report.crossings);
+    assert_eq!(report.contact, ContactReport::default(), "as sewn: {:?}", report.crossings);
     let (run, report) = rests(name, &job);
     assert!(report.worn.len() == 4 && report.worn.iter().all(|w| w.body_part.is_some()), "{:?}", report.worn);
     // The outer one is outside all round: further from the axis of the body, height by height.

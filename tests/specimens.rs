@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use toile::fabric::{library, load, sheet};
-use toile::specimen::{Figure, Known, LAYS, Lay, Sample, Series, TESTS, cantilever_error, drape};
+use toile::specimen::{BenchFigure, Known, LAYS, Lay, Sample, Series, TESTS, cantilever_error, drape};
 
 static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     fabric: Arc::new(load("cotton_poplin").expect("shipped")),
@@ -11,12 +11,12 @@ static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     published: None,
 });
 
-fn figures_of(sample: &Sample, test: &str) -> Vec<Figure> {
+fn figures_of(sample: &Sample, test: &str) -> Vec<BenchFigure> {
     let test = TESTS.iter().find(|t| t.name == test).expect(test);
     test.run(sample).expect(test.name).figures
 }
 
-fn figures(test: &str) -> Vec<Figure> {
+fn figures(test: &str) -> Vec<BenchFigure> {
     figures_of(&POPLIN, test)
 }
 

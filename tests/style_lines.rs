@@ -2,7 +2,7 @@
 
 use approx::assert_abs_diff_eq as near;
 use toile::io::garment::{Loaded, Refused, read_file_only, read_text, write};
-use toile::pattern::{Cut, Garment, Problem};
+use toile::pattern::{CutKind, Garment, Problem};
 
 /// Largest difference that passes, metres.
 const EXACT: f64 = 1e-5;
@@ -70,7 +70,7 @@ fn a_line_across_the_fold_cuts_both_halves() {
     near!(skirt.notches[0].1[0].value.at.number, 60.0, epsilon = 1e-9);
     assert!(skirt.notches[0].1[0].value.double && front.darts.len() == 1 && skirt.darts.is_empty());
     assert!(front.lines.is_empty() && skirt.lines[0].name.value == "pocket");
-    assert!(matches!(skirt.cut.as_ref().map(|c| &c.value), Some(Cut::Fold(edge)) if edge == "center"));
+    assert!(matches!(skirt.cut.as_ref().map(|c| &c.value), Some(CutKind::Fold(edge)) if edge == "center"));
     // Written out and read again it is the same garment.
     let again = read_file_only("new.yaml", &write(file).expect("text")).expect("read");
     assert_eq!(again.pieces[1].outline.as_ref().map(|o| o.edges.len()), Some(4));
@@ -135,7 +135,7 @@ fn what_was_cut_can_be_joined_again() {
         assert_eq!(loaded.file.pieces.len(), 2, "{cut}");
         near!(area(&loaded.garment, "front"), 2.0 * (0.2 * 0.4 - DART), epsilon = 1e-8);
         let front = &loaded.file.pieces[0];
-        assert!(matches!(front.cut.as_ref().map(|c| &c.value), Some(Cut::Fold(edge)) if edge == "center"), "{cut}");
+        assert!(matches!(front.cut.as_ref().map(|c| &c.value), Some(CutKind::Fold(edge)) if edge == "center"), "{cut}");
         assert!(front.darts.len() == 1 && front.lines.len() == 1, "{cut}");
         let notches: Vec<f64> = front.notches.iter().flat_map(|n| &n.1).map(|n| n.value.at.number).collect();
         assert_eq!(notches.len(), 2, "{cut}");

@@ -2,24 +2,24 @@
 
 use std::path::{Path as FilePath, PathBuf};
 
-use toile::digitize::{Digitized, Notch, Suggestion, Traced, garment_file};
+use toile::digitize::{Digitized, ImportedNotch, Suggestion, Traced, garment_file};
 use toile::geometry::{Path, Vec2};
 use toile::io::garment::read;
 use toile::io::garmentcode::{Wearer, read as read_garmentcode};
-use toile::pattern::{Cut, Drawing, GarmentFile, PlaceFile, Side, drawings};
+use toile::pattern::{CutKind, DrawnPiece, GarmentFile, PlaceFile, Side, drawings};
 
 /// A piece of closed path commands, millimetres, its notches (single or double) and how it is cut.
 struct Drawn<'a> {
     name: &'a str,
     path: &'a str,
     notches: &'a [([f64; 2], bool)],
-    cut: Option<Cut>,
+    cut: Option<CutKind>,
     fold: Option<[[f64; 2]; 2]>,
 }
 
 impl<'a> Drawn<'a> {
     fn pair(name: &'a str, path: &'a str) -> Self {
-        Self { name, path, notches: &[], cut: Some(Cut::Pair), fold: None }
+        Self { name, path, notches: &[], cut: Some(CutKind::Pair), fold: None }
     }
 }
 
@@ -28,10 +28,10 @@ fn point([x, y]: [f64; 2]) -> Vec2 {
 }
 
 /// A double notch as drawings have it: two marks.
-fn marks(at: Vec2, double: bool) -> Vec<Notch> {
+fn marks(at: Vec2, double: bool) -> Vec<ImportedNotch> {
     let off = if double { 3e-3 } else { 0.0 };
     let marks = [at - Vec2::new(off, 0.0), at + Vec2::new(off, 0.0)];
-    marks.into_iter().take(1 + usize::from(double)).map(|at| Notch { at, told: None }).collect()
+    marks.into_iter().take(1 + usize::from(double)).map(|at| ImportedNotch { at, told: None }).collect()
 }
 
 fn made(pieces: &[Drawn]) -> Digitized {
@@ -65,8 +65,8 @@ fn a_single_notch_is_never_sewn_to_a_double_one() {
 }
 
 /// The pieces of a garment as other programs draw them: no names of edges, notches as marks.
-fn stripped(drawings: &[Drawing]) -> Vec<Traced> {
-    let piece = |drawing: &Drawing| {
+fn stripped(drawings: &[DrawnPiece]) -> Vec<Traced> {
+    let piece = |drawing: &DrawnPiece| {
         let ring = &drawing.rings[0];
         let whole = ring.iter().map(|e| e.path.clone()).reduce(|line, next| line.joined(&next)).expect("edges");
         let fold = drawing.fold.map(|k| [ring[k].path.start(), ring[k].path.end()]);
@@ -77,7 +77,7 @@ fn stripped(drawings: &[Drawing]) -> Vec<Traced> {
             grain: drawing.grain,
             notches: drawing.notches.iter().filter(|n| n.edge.0 == 0).flat_map(notch).collect(),
             mirror: fold,
-            cut_how: Some(drawing.cut.clone()).filter(|cut| !matches!(cut, Cut::Fold(_))),
+            cut_how: Some(drawing.cut.clone()).filter(|cut| !matches!(cut, CutKind::Fold(_))),
             ..Traced::default()
         }
     };
@@ -85,7 +85,7 @@ fn stripped(drawings: &[Drawing]) -> Vec<Traced> {
 }
 
 /// `front.neck` of `front.L.neck`, `front.neck.2` or `front.neck@0..30`.
-fn base(drawings: &[Drawing], written: &str) -> String {
+fn base(drawings: &[DrawnPiece], written: &str) -> String {
     let plain = written.split('@').next().unwrap_or_default();
     let (piece, rest) = plain.split_once('.').unwrap_or((plain, ""));
     let edge = rest.split('.').find(|word| !["L", "R"].contains(word) && word.parse::<usize>().is_err());
@@ -94,7 +94,7 @@ fn base(drawings: &[Drawing], written: &str) -> String {
 }
 
 /// What a garment's seams sew, by whole edges: two sides each, the second `mirror` for halves of a pair.
-fn truth(file: &GarmentFile, drawings: &[Drawing]) -> Vec<[Vec<String>; 2]> {
+fn truth(file: &GarmentFile, drawings: &[DrawnPiece]) -> Vec<[Vec<String>; 2]> {
     let side = |edges: &[toile::pattern::Located<String>]| {
         let all = edges.iter().map(|e| if e.value == "mirror" { e.value.clone() } else { base(drawings, &e.value) });
         sorted(all.collect())
@@ -114,7 +114,7 @@ fn sorted(mut all: Vec<String>) -> Vec<String> {
 }
 
 /// The garment's own edges that edges of a suggestion run along.
-fn along(made: &Digitized, drawings: &[Drawing], edges: &[String]) -> Vec<String> {
+fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<String> {
     let own = |written: &String| -> Vec<String> {
         if written == "mirror" {
             return vec![written.clone()];
@@ -151,7 +151,7 @@ fn along(made: &Digitized, drawings: &[Drawing], edges: &[String]) -> Vec<String
 
 /// How many of the offered seams are the garment's own (or a part of one), how many are offered, how many of its own
 /// are among them, and how many it has.
-fn judged(file: &GarmentFile, drawings: &[Drawing]) -> ([usize; 4], String) {
+fn judged(file: &GarmentFile, drawings: &[DrawnPiece]) -> ([usize; 4], String) {
     let made = garment_file("garment", &stripped(drawings));
     let truth = truth(file, drawings);
     let mut found = vec![false; truth.len()];
@@ -195,7 +195,7 @@ fn shown(own: &Suggestion, sides: &[Vec<String>; 2]) -> String {
     )
 }
 
-fn of_garments(garments: &[(String, GarmentFile, Vec<Drawing>)]) -> [usize; 4] {
+fn of_garments(garments: &[(String, GarmentFile, Vec<DrawnPiece>)]) -> [usize; 4] {
     let mut sum = [0; 4];
     for (name, file, drawings) in garments {
         let (counts, said) = judged(file, drawings);
@@ -275,7 +275,7 @@ fn sleeve(long: f64, front: f64, back: f64) -> Traced {
         sew: vec![(None, cap.joined(&Path::polyline(&rest)))],
         grain: Some([point([0.0, 300.0]), point([0.0, 0.0])]),
         notches,
-        cut_how: Some(Cut::Pair),
+        cut_how: Some(CutKind::Pair),
         ..Traced::default()
     }
 }
@@ -354,7 +354,7 @@ fn hems_are_told_by_their_allowance() {
         let sew = Path::parse_absolute("M 0 0 H 150 L 200 500 H 0 Z", 1e-3).expect("a path");
         let cut = Path::parse_absolute("M -10 -10 H 160 L 213 540 H -10 Z", 1e-3).expect("a path");
         let grain = Some([point([50.0, 100.0]), point([50.0, 300.0])]);
-        let how = Some(Cut::Pair);
+        let how = Some(CutKind::Pair);
         Traced {
             name: name.to_owned(),
             sew: vec![(None, sew)],

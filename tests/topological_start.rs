@@ -6,8 +6,8 @@ use std::path::Path;
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
 use toile::pipeline::{Job, Overrides, Run, read};
+use toile::report::ContactReport;
 use toile::sew::Stitching;
-use toile::report::Contact;
 use toile::sew::start::{glue, start};
 
 /// The start's own spacing, metres: nothing is lost on the way to the mesh asked for.
@@ -197,6 +197,6 @@ fn straps_that_cross_at_the_back_lie_over_the_shoulders() {
     let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
     worn.sort_unstable();
     assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
-    assert_eq!(report.contact, Contact::default());
+    assert_eq!(report.contact, ContactReport::default());
     assert!(report.closures.iter().all(|c| c.closed && c.turned.is_none()), "{:?}", report.closures);
 }

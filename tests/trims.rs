@@ -26,7 +26,9 @@ fn draped(name: &str, spacing: f64) -> Draped {
     let overrides = Overrides { spacing: Some(spacing * 1e-3), ..Overrides::default() };
     let job = Job::new(&file, read(&file).expect("a garment"), &overrides).map_err(|e| e.to_string()).expect("a job");
     let mut run = Run::new(&job);
-    run.flatten(&toile::flatten::Options::default(), &mut |_, _| {}).map_err(|e| e.to_string()).expect("laid flat");
+    run.flatten(&toile::flatten::FlattenOptions::default(), &mut |_, _| {})
+        .map_err(|e| e.to_string())
+        .expect("laid flat");
     let (x, report) = (run.last().expect("draped").to_vec(), run.report());
     let contact = &report.contact;
     let crossings = contact.inside_body + contact.cloth_body_intersections + contact.cloth_cloth_intersections;

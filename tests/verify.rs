@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use toile::geometry::{TriMesh, Vec3, rim_loops};
-use toile::mannequin::{BodyPart, Frame, Mannequin, PartKind, Section};
+use toile::mannequin::{BodyFrame, BodyPart, Mannequin, PartKind, Section};
 use toile::verify::{Through, crossings, crossings_between, inside, past_end, worn};
 
 /// Numbers in 0..1, the same every time (a linear congruential generator).
@@ -385,7 +385,7 @@ fn mannequin() -> Mannequin {
             limb(PartKind::LeftLeg, [0.1, 0.8, 0.0], [0.12, 0.1, 0.0]),
             limb(PartKind::RightLeg, [-0.1, 0.8, 0.0], [-0.12, 0.1, 0.0]),
         ],
-        frame: Frame::default(),
+        frame: BodyFrame::default(),
     }
 }
 

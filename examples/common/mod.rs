@@ -17,7 +17,7 @@ pub(crate) mod measure;
 use std::error::Error;
 
 use toile::drape::geometric::{
-    Control, GeometricCloth, LeastSquares, Recovery, Report, SolveOptions, Weighting, Weights,
+    Control, GeometricCloth, LeastSquares, Recovery, SolveOptions, SolverReport, Weighting, Weights,
 };
 use toile::fabric::{self, FabricSheet};
 use toile::geometry::{TriMesh, Vec3};
@@ -50,7 +50,7 @@ pub(crate) struct Experiment {
 /// The shape of least energy.
 pub(crate) struct Solved {
     pub(crate) x: Vec<Vec3>,
-    pub(crate) report: Report,
+    pub(crate) report: SolverReport,
     /// Iterations until the energy has settled.
     pub(crate) settled: usize,
 }
@@ -148,7 +148,7 @@ impl Experiment {
 
 /// Iterations until the energy changes by less than [`SETTLED`] of itself. Where it tends to zero, as that of a
 /// membrane that can fold without stretching, [`SETTLED`] of its value after the first iteration takes its place.
-pub(crate) fn settled(report: &Report) -> usize {
+pub(crate) fn settled(report: &SolverReport) -> usize {
     let first = report.history.get(1).copied().unwrap_or_default();
     let quiet = |w: &[f64]| w[0] - w[1] < SETTLED * w[1].max(SETTLED * first);
     report.history.windows(2).position(quiet).map_or(report.iterations, |k| k + 1)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
+use toile::input::{is_file_name, whole};
 
 use crate::errors;
 
@@ -32,11 +33,7 @@ impl Named {
     /// The name or path, as `--body` and `--fabric` take it. A file is named from the root on: the program may go to
     /// another folder.
     pub(crate) fn name(self, shipped: &[&str]) -> String {
-        let name = Path::new(&self.0);
-        if shipped.contains(&self.0.as_str()) || name.extension().is_none() {
-            return self.0;
-        }
-        whole(name).display().to_string()
+        if is_file_name(&self.0, shipped) { whole(Path::new(&self.0)).display().to_string() } else { self.0 }
     }
 
     /// As it was given.
@@ -57,11 +54,6 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Named {
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         Self::of(&value).ok_or_else(|| wrong_kind(&value, "a name of the library or a file"))
     }
-}
-
-/// The path from the root on. One that the system cannot complete stays as it is.
-pub(crate) fn whole(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// A class of ours, or a name or file that stands for an object of it.

@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 use toile::batch::{
-    Event, INDEX, Job, Limits, PANICKED, Plan, Store, Worker, check_jobs, garments_of_folder, read_jobs, run, run_one,
+    BatchJob, BatchPlan, Event, INDEX, Limits, PANICKED, Store, Worker, check_jobs, garments_of_folder, read_jobs, run,
+    run_one,
 };
 
 use crate::arguments::Count;
@@ -38,7 +39,7 @@ fn plan(
     memory: Option<Count>,
     threads: Count,
     retry: bool,
-) -> PyResult<Plan> {
+) -> PyResult<BatchPlan> {
     let duration = |s: f64| Duration::try_from_secs_f64(s).ok().filter(|time| !time.is_zero());
     let wrong_time = |s: f64| errors::input(py, format!("time: {s} is no positive number of seconds, such as 1200"));
     let time = time.map(|s| duration(s).ok_or_else(|| wrong_time(s))).transpose()?;
@@ -46,7 +47,7 @@ fn plan(
     if let Some(memory) = memory.filter(|memory| !(1..MOST_MEMORY).contains(memory)) {
         return Err(errors::input(py, format!("memory: {memory} is no size in MiB, such as 4096")));
     }
-    Ok(Plan {
+    Ok(BatchPlan {
         worker: Worker { program, threads: count(py, "threads", threads)? },
         limits: Limits { time, memory: memory.map(i64::unsigned_abs) },
         side_by_side: NonZeroUsize::MIN,
@@ -58,7 +59,7 @@ fn plan(
 /// The JSON texts of a list of jobs, or of the garments of a folder, with whole paths.
 #[pyfunction]
 pub(crate) fn read_list(py: Python<'_>, list: PathBuf) -> PyResult<Vec<String>> {
-    let options = Job::options();
+    let options = BatchJob::options();
     let jobs = if list.is_dir() {
         garments_of_folder(&list, &options).map(|found| found.jobs)
     } else {
@@ -74,14 +75,14 @@ pub(crate) fn check_list(py: Python<'_>, texts: Vec<String>) -> PyResult<Vec<Str
     Ok(as_texts(&jobs(py, &texts)?))
 }
 
-fn as_texts(jobs: &[Job]) -> Vec<String> {
+fn as_texts(jobs: &[BatchJob]) -> Vec<String> {
     jobs.iter().map(|job| serde_json::to_string(job).unwrap_or_default()).collect()
 }
 
 /// Jobs from their JSON texts.
-fn jobs(py: Python<'_>, texts: &[String]) -> PyResult<Vec<Job>> {
+fn jobs(py: Python<'_>, texts: &[String]) -> PyResult<Vec<BatchJob>> {
     let numbered = (1..).zip(texts.iter().map(String::as_str));
-    check_jobs(numbered, "job", Path::new(""), &Job::options()).map_err(|mistakes| errors::jobs(py, &mistakes))
+    check_jobs(numbered, "job", Path::new(""), &BatchJob::options()).map_err(|mistakes| errors::jobs(py, &mistakes))
 }
 
 /// A work folder of the store, which is there as long as this is held. Jobs on a cluster that are made for it end when
@@ -128,7 +129,7 @@ pub(crate) fn run_batch<'py>(
     let jobs = jobs(py, &texts)?;
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let side_by_side = side_by_side.map_or_else(|| Ok(cores()), |number| count(py, "side_by_side", number))?;
-    let plan = Plan { side_by_side, ..plan(py, program, time, memory, threads, retry)? };
+    let plan = BatchPlan { side_by_side, ..plan(py, program, time, memory, threads, retry)? };
     let done = with_signals(py, None, progress.as_ref(), move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();

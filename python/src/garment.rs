@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use toile::digitize::{garment_file, sewn};
+use toile::input::{stem, whole};
 use toile::io::body::floor_of;
 use toile::io::garment::{Variant, change_text, write};
 use toile::io::garmentcode::{self, Wearer};
@@ -15,7 +16,7 @@ use toile::pipeline::{
     EarlierFiles, Job, Overrides, PictureOptions, PipelineError, Run, check_text, problems, read_text,
 };
 
-use crate::arguments::{Count, whole, wrong_kind};
+use crate::arguments::{Count, wrong_kind};
 use crate::fit::{self, Fit};
 use crate::library::{GivenBody, GivenFabric};
 use crate::options::{self, Earlier, Start, known_body, overrides};
@@ -77,7 +78,7 @@ impl Garment {
     fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<GivenBody>) -> PyResult<Self> {
         let text = std::fs::read_to_string(&path);
         let text = text.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let stem = stem(&path);
         let name = stem.strip_suffix("_specification").unwrap_or(&stem);
         let (body, measures) = body.map(GivenBody::parts).map_or((None, None), |(b, m)| (Some(b), Some(m)));
         body.as_deref().map_or(Ok(()), |body| known_body(py, body))?;
@@ -114,7 +115,7 @@ impl Garment {
         let options = SvgOptions { unit: units.map(|mm| 1e-3 * mm), size };
         let drawing = read_svg(&path, &options);
         let drawing = drawing.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let stem = stem(&path);
         let made = garment_file(&drawing.title.clone().unwrap_or_else(|| stem.clone()), &drawing.pieces);
         let said = if seams { sewn(&made.file, &made.suggestions) } else { made.file.clone() };
         let mut notes = drawing.complaints();
@@ -125,7 +126,7 @@ impl Garment {
     /// The short name, which is that of the file.
     #[getter]
     fn name(&self) -> String {
-        self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+        stem(&self.file)
     }
 
     /// The text of the garment file, with its alterations carried out if there are any of :meth:`alter`.
@@ -350,7 +351,7 @@ fn make(
             Run::continued_from(&job, &EarlierFiles { name, surface, report })?
         }
     };
-    if let Err(error) = run.flatten(&toile::flatten::Options::default(), tell) {
+    if let Err(error) = run.flatten(&toile::flatten::FlattenOptions::default(), tell) {
         let files = run.state(&PictureOptions::default()).unwrap_or_default();
         return Err(Failed { error: Box::new(error), files });
     }

@@ -1,8 +1,9 @@
 //! Options of `Garment.make` and `Garment.fit`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use toile::input::check_known;
 use toile::pipeline::{GARMENT_OBJ, Overrides, REPORT_JSON};
 use toile::report::Bands;
 
@@ -86,12 +87,5 @@ pub(crate) fn bands(py: Python<'_>, limits: Option<(f64, f64)>) -> PyResult<Opti
 
 /// A body by its name, which is to be in the library, or a file.
 pub(crate) fn known_body(py: Python<'_>, name: &str) -> PyResult<()> {
-    let shipped = toile::mannequin::library();
-    if shipped.contains(&name) || Path::new(name).is_file() {
-        return Ok(());
-    }
-    let nearest = toile::input::nearest(name, shipped.iter().copied());
-    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
-    let known = shipped.join(", ");
-    Err(errors::input(py, format!("body: '{name}' is neither in the library ({known}) nor a file{meant}")))
+    check_known(name, &toile::mannequin::library()).map_err(|why| errors::input(py, format!("body: {why}")))
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray3, PyArrayLike2};
 use pyo3::prelude::*;
-use toile::flatten::{Mode, Options};
+use toile::flatten::{FlattenOptions, Mode};
 use toile::geometry::Vec3;
 use toile::io::obj_read::ObjFaces;
 use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
@@ -125,7 +125,7 @@ pub(crate) fn flatten(
         up: up.map(|up| up.normalize()),
         cuts: Cuts { auto: cut, ..Cuts::default() },
         darts: (darts > 0).then_some(Darts::Count(darts)),
-        flatten: Options { mode: self::mode(mode).map_err(wrong)?, ..Options::default() },
+        flatten: FlattenOptions { mode: self::mode(mode).map_err(wrong)?, ..FlattenOptions::default() },
         ..SurfaceOptions::default()
     };
     let vertices = triples(vertices, "vertices", ["fiu", "numbers"])?.extract()?;

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::shift::Field;
+use super::shift::EdgeShift;
 use crate::geometry::{Path, Vec2};
 
 /// Largest distance of the fitted shift from the given one, metres: half a pencil line.
@@ -16,7 +16,7 @@ const FEWEST: usize = 4;
 
 /// The shift along a stretch of this length, as smooth as it can be, and exact at both ends. A shift that is even, or
 /// changes evenly, stays so.
-pub(super) fn fitted(length: f64, given: impl Fn(f64) -> Vec2) -> Field {
+pub(super) fn fitted(length: f64, given: impl Fn(f64) -> Vec2) -> EdgeShift {
     let count = ((length / STEP).ceil() as usize).max(FEWEST);
     let place = |i: usize| length * i as f64 / count as f64;
     let samples: Vec<(f64, Vec2)> = (0..=count).map(|i| (place(i), given(place(i)))).collect();
@@ -36,13 +36,13 @@ pub(super) fn fitted(length: f64, given: impl Fn(f64) -> Vec2) -> Field {
 }
 
 /// A shift that goes over evenly from one end to the other.
-pub(super) fn between(length: f64, ends: [Vec2; 2]) -> Field {
+pub(super) fn between(length: f64, ends: [Vec2; 2]) -> EdgeShift {
     let rise = (ends[1] - ends[0]) / length;
-    Field { knots: vec![(0.0, ends[0]), (length, ends[1])], slopes: vec![rise; 2], linear: true }
+    EdgeShift { knots: vec![(0.0, ends[0]), (length, ends[1])], slopes: vec![rise; 2], linear: true }
 }
 
 /// The shift with another on top that goes over evenly.
-pub(super) fn tilted(field: &Field, ends: [Vec2; 2]) -> Field {
+pub(super) fn tilted(field: &EdgeShift, ends: [Vec2; 2]) -> EdgeShift {
     let length = field.knots[field.knots.len() - 1].0;
     let rise = (ends[1] - ends[0]) / length;
     let mut out = field.clone();
@@ -52,7 +52,7 @@ pub(super) fn tilted(field: &Field, ends: [Vec2; 2]) -> Field {
 }
 
 /// A path of the field's length as it is shifted, and the places on it of those at `marks`.
-pub(super) fn carried(field: &Field, path: &Path, marks: &[f64]) -> (Path, Vec<f64>) {
+pub(super) fn carried(field: &EdgeShift, path: &Path, marks: &[f64]) -> (Path, Vec<f64>) {
     let knots: Vec<f64> = field.knots.iter().map(|k| k.0).collect();
     let (new, moved) = path.shifted(&knots, marks, |s| field.at(s));
     let line = field.linear && path.is_straight();
@@ -60,7 +60,7 @@ pub(super) fn carried(field: &Field, path: &Path, marks: &[f64]) -> (Path, Vec<f
 }
 
 /// By interval between knots, the largest distance of the field from a sample.
-fn misses(field: &Field, samples: &[(f64, Vec2)], knots: &[f64]) -> Vec<f64> {
+fn misses(field: &EdgeShift, samples: &[(f64, Vec2)], knots: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0f64; knots.len() - 1];
     for (s, given) in samples {
         let i = knots[1..knots.len() - 1].partition_point(|k| k <= s);
@@ -71,7 +71,7 @@ fn misses(field: &Field, samples: &[(f64, Vec2)], knots: &[f64]) -> Vec<f64> {
 
 /// The cubics between these knots that are nearest to the samples; they pass the first and the last one. `None` where
 /// the samples do not tell them.
-fn least_squares(samples: &[(f64, Vec2)], knots: &[f64]) -> Option<Field> {
+fn least_squares(samples: &[(f64, Vec2)], knots: &[f64]) -> Option<EdgeShift> {
     let (last, ends) = (knots.len() - 1, [samples[0].1, samples[samples.len() - 1].1]);
     // Unknown are the shifts at the inner knots, and the slopes at all.
     let unknown = last - 1 + knots.len();
@@ -101,7 +101,7 @@ fn least_squares(samples: &[(f64, Vec2)], knots: &[f64]) -> Option<Field> {
         k if k == last => ends[1],
         k => row(k - 1),
     };
-    let field = Field {
+    let field = EdgeShift {
         knots: knots.iter().enumerate().map(|(k, s)| (*s, shift(k))).collect(),
         slopes: (0..=last).map(|k| row(last - 1 + k)).collect(),
         linear: false,
@@ -109,7 +109,7 @@ fn least_squares(samples: &[(f64, Vec2)], knots: &[f64]) -> Option<Field> {
     field.slopes.iter().all(|slope| slope.iter().all(|x| x.is_finite())).then_some(field)
 }
 
-impl Field {
+impl EdgeShift {
     /// Whether nothing is shifted.
     pub(super) fn is_still(&self) -> bool {
         self.knots.iter().all(|(_, by)| *by == Vec2::zeros()) && self.slopes.iter().all(|slope| *slope == Vec2::zeros())

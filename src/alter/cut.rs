@@ -2,10 +2,10 @@
 
 use super::open::{Bit, Half, chain, darts_whole};
 use super::parts::{PartEdge, Parted, rename};
-use super::sheet::{Mark, Sheet};
+use super::sheet::{AlteredPiece, EdgeMark};
 use super::{Fault, laying, name};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, DartShape, GarmentFile, Located, OutlineFile, PieceFile, Problem, SeamFile};
+use crate::pattern::{CutKind, DartShape, GarmentFile, Located, OutlineFile, PieceFile, Problem, SeamFile};
 
 /// Largest distance of the style line from the chords that stand for it where it is asked what lies beside it, metres.
 const CHORD: f64 = 1e-5;
@@ -23,7 +23,7 @@ pub(super) struct StyleLine<'f> {
 }
 
 /// One of the two parts: its edges with the stretch of the old one that each is, and whether it is on the fold.
-struct Part {
+struct PieceHalf {
     piece: String,
     edges: Vec<PartEdge>,
     half: Half,
@@ -49,7 +49,7 @@ impl StyleLine<'_> {
         }
         let seam = self.seam.unwrap_or(self.name);
         self.check_names(file, &seam.value)?;
-        let mut sheet = Sheet::read(file, index)?;
+        let mut sheet = AlteredPiece::read(file, index)?;
         sheet.fold_by_like(file, index);
         let parts = self.parts(&sheet, [from, to], &file.pieces[index], &seam.value)?;
         let pieces = [0, 1].map(|k| self.written(file, index, &sheet, &parts[k]));
@@ -76,7 +76,7 @@ impl StyleLine<'_> {
     }
 
     /// The line between two points of the outline.
-    fn line(&self, sheet: &Sheet, ends: [Vec2; 2]) -> Path {
+    fn line(&self, sheet: &AlteredPiece, ends: [Vec2; 2]) -> Path {
         let scale = sheet.unit.factor();
         let mut points = vec![ends[0]];
         points.extend(self.via.iter().map(|p| Vec2::from(p.value) * scale));
@@ -85,7 +85,13 @@ impl StyleLine<'_> {
     }
 
     /// The two parts, that with the fold or the middle of the grain first.
-    fn parts(&self, sheet: &Sheet, marks: [Mark; 2], piece: &PieceFile, seam: &str) -> Result<[Part; 2], Fault> {
+    fn parts(
+        &self,
+        sheet: &AlteredPiece,
+        marks: [EdgeMark; 2],
+        piece: &PieceFile,
+        seam: &str,
+    ) -> Result<[PieceHalf; 2], Fault> {
         let refuse = |at, reason: String| Err((at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
         let ends = marks.map(|m| sheet.edges[m.edge].point(m.at));
         let line = self.line(sheet, ends);
@@ -115,7 +121,7 @@ impl StyleLine<'_> {
         let first_keeps = keeps(&halves[0]);
         let part = |half: Half, line: Path, piece: &str| {
             let has_fold = sheet.fold.is_some_and(|fold| half.has(fold));
-            Part { piece: piece.to_owned(), edges: edges_of(sheet, &half, line, seam), half, has_fold }
+            PieceHalf { piece: piece.to_owned(), edges: edges_of(sheet, &half, line, seam), half, has_fold }
         };
         let ([old, new], [one, other]) = ([sheet.piece.as_str(), self.name.value.as_str()], halves);
         let back = line.reversed();
@@ -127,12 +133,18 @@ impl StyleLine<'_> {
     }
 
     /// A part as a piece of the file.
-    fn written(&self, file: &GarmentFile, index: usize, sheet: &Sheet, part: &Part) -> Result<PieceFile, Fault> {
+    fn written(
+        &self,
+        file: &GarmentFile,
+        index: usize,
+        sheet: &AlteredPiece,
+        part: &PieceHalf,
+    ) -> Result<PieceFile, Fault> {
         let old = &file.pieces[index];
         let mut new = old.clone();
         new.name = Located::new(part.piece.clone(), if part.piece == sheet.piece { old.name.at } else { self.name.at });
         if sheet.fold.is_some() && !part.has_fold {
-            new.cut = Some(Located::new(Cut::Pair, self.name.at));
+            new.cut = Some(Located::new(CutKind::Pair, self.name.at));
             new.drawn.get_or_insert_with(|| Located::new(laying::cut_of(file, index).1, self.name.at));
         }
         let scale = 1.0 / sheet.unit.factor();
@@ -159,14 +171,14 @@ impl StyleLine<'_> {
 /// Points of a style line at which it must lie inside its piece.
 const INSIDE: usize = 64;
 
-fn chain_all(sheet: &Sheet) -> Vec<Bit> {
+fn chain_all(sheet: &AlteredPiece) -> Vec<Bit> {
     let bit = |edge: usize| Bit { edge, was: Some([0.0, sheet.edges[edge].length()]), path: sheet.edges[edge].clone() };
     (0..sheet.edges.len()).map(bit).collect()
 }
 
 /// The edges of a part, from the first of the old ones on; the style line is the last or where it comes. A second
 /// stretch of one edge is `hem_2`.
-fn edges_of(sheet: &Sheet, half: &Half, line: Path, seam: &str) -> Vec<PartEdge> {
+fn edges_of(sheet: &AlteredPiece, half: &Half, line: Path, seam: &str) -> Vec<PartEdge> {
     let mut edges: Vec<PartEdge> = Vec::new();
     for bit in &half.bits {
         let was = bit.was.unwrap_or_default();
@@ -185,7 +197,7 @@ fn edges_of(sheet: &Sheet, half: &Half, line: Path, seam: &str) -> Vec<PartEdge>
 }
 
 /// `hem_2`, or the next number that no edge of the piece has.
-fn free_name(sheet: &Sheet, name: &str) -> String {
+fn free_name(sheet: &AlteredPiece, name: &str) -> String {
     let mut number = 2;
     while sheet.names.iter().any(|n| *n == format!("{name}_{number}")) {
         number += 1;

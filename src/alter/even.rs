@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Fault;
-use super::reshape::Shape;
+use super::reshape::ShiftedPiece;
 use crate::geometry::Vec2;
 use crate::pattern::{Findings, GarmentFile, Give, Problem, Seam, SeamKind, Spot, expand};
 
@@ -17,7 +17,7 @@ const TRIAL: f64 = 1e-3;
 const NONE: f64 = 1e-3;
 
 /// A corner that may be moved along a direction.
-struct Knob {
+struct MovableCorner {
     shape: usize,
     corner: usize,
     along: Vec2,
@@ -26,7 +26,7 @@ struct Knob {
 /// Writes the shapes into the file. Corners of the pieces that change are moved by the least amounts (in squares) that
 /// keep the difference of the two sides of each seam, or their ratio where one is gathered or stretched. Gives the file
 /// and how far a seam is off.
-pub(super) fn evened(file: &GarmentFile, shapes: &[Shape]) -> Result<(GarmentFile, f64), Fault> {
+pub(super) fn evened(file: &GarmentFile, shapes: &[ShiftedPiece]) -> Result<(GarmentFile, f64), Fault> {
     let before = seams(file)?;
     let still: Vec<Vec<Vec2>> = shapes.iter().map(|s| vec![Vec2::zeros(); s.corners()]).collect();
     let written = |tilt: &[Vec<Vec2>]| -> Result<GarmentFile, Fault> {
@@ -69,9 +69,9 @@ pub(super) fn evened(file: &GarmentFile, shapes: &[Shape]) -> Result<(GarmentFil
 }
 
 /// The corners that may be moved. Pieces that keep their shape keep it to the last digit.
-fn knobs(shapes: &[Shape]) -> Vec<Knob> {
-    let of = |(shape, s): (usize, &Shape)| {
-        let along = |corner| s.directions(corner).into_iter().map(move |along| Knob { shape, corner, along });
+fn knobs(shapes: &[ShiftedPiece]) -> Vec<MovableCorner> {
+    let of = |(shape, s): (usize, &ShiftedPiece)| {
+        let along = |corner| s.directions(corner).into_iter().map(move |along| MovableCorner { shape, corner, along });
         (0..s.corners()).flat_map(along).collect::<Vec<_>>()
     };
     shapes.iter().enumerate().filter(|(_, s)| !s.is_still()).flat_map(of).collect()

@@ -1,6 +1,6 @@
 //! Fullness: a piece slashed several times from one edge to another, each slash opened alike.
 
-use super::sheet::Sheet;
+use super::sheet::AlteredPiece;
 use super::{Fault, name, open};
 use crate::geometry::MM;
 use crate::pattern::{GarmentFile, Located, Problem, Quantity, Unit};
@@ -52,7 +52,7 @@ impl Fullness<'_> {
         Ok(())
     }
 
-    fn count(&self, sheet: &Sheet, edge: usize) -> Result<usize, Fault> {
+    fn count(&self, sheet: &AlteredPiece, edge: usize) -> Result<usize, Fault> {
         let usual = (sheet.edges[edge].length() / APART).round().clamp(1.0, MOST as f64) as usize;
         match self.slashes {
             Some(n) if !(1..=MOST).contains(&n.value) => {

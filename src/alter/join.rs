@@ -1,12 +1,12 @@
 //! Two pieces joined along a seam, as if it had never been cut.
 
-use super::sheet::{Sheet, length_in, rounded};
+use super::sheet::{AlteredPiece, length_in, rounded};
 use super::shift::{same_way, seam_face_same, sides};
 use super::{Fault, laying, name};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, Located, OutlineFile, PieceFile, PleatFile,
-    Problem, Quantity, TestFile, Words, loop_crossing,
+    AllowanceFile, AllowanceWidth, CutKind, DartFile, DartShape, GarmentFile, Located, OutlineFile, PieceFile,
+    PleatFile, Problem, Quantity, TestFile, Words, loop_crossing,
 };
 
 /// Largest distance of the two edges of the seam from each other when they lie on one another, metres.
@@ -18,7 +18,7 @@ const UPRIGHT: f64 = 1e-9;
 
 /// An edge of one of the two pieces on the joined outline.
 #[derive(Clone, Copy, Debug)]
-struct Source {
+struct SourceEdge {
     /// 0 for the piece that stays, 1 for the one that is joined to it.
     of: usize,
     edge: usize,
@@ -27,15 +27,15 @@ struct Source {
 }
 
 /// An edge of the joined outline.
-struct Joint {
+struct JoinedEdge {
     name: String,
     path: Path,
-    sources: Vec<Source>,
+    sources: Vec<SourceEdge>,
 }
 
 /// The two pieces. The second lies at the first as `turn · p + shift`.
-struct Join {
-    sheets: [Sheet; 2],
+struct PieceJoin {
+    sheets: [AlteredPiece; 2],
     index: [usize; 2],
     edge: [usize; 2],
     turn: nalgebra::Matrix2<f64>,
@@ -44,7 +44,7 @@ struct Join {
 
 /// Joins the two pieces of a seam. The first one's name, grain and place stay.
 pub(super) fn join(file: &mut GarmentFile, seam: &Located<String>) -> Result<(), Fault> {
-    let join = Join::new(file, seam)?;
+    let join = PieceJoin::new(file, seam)?;
     let joints = join.joints(file);
     let paths: Vec<Path> = joints.iter().map(|j| j.path.clone()).collect();
     if let Some((near, [one, other])) = loop_crossing(&paths) {
@@ -62,7 +62,7 @@ pub(super) fn join(file: &mut GarmentFile, seam: &Located<String>) -> Result<(),
     Ok(())
 }
 
-impl Join {
+impl PieceJoin {
     fn new(file: &mut GarmentFile, seam: &Located<String>) -> Result<Self, Fault> {
         let refuse =
             |piece: &str, reason: String| Err((seam.at, Problem::AlterShape { piece: piece.to_owned(), reason }));
@@ -81,7 +81,7 @@ impl Join {
         let [kept, joined] = [i, j].map(|k| &file.pieces[k]);
         let [(cut, drawn), (other_cut, other_drawn)] = [i, j].map(|k| laying::cut_of(file, k));
         let alike = match (&cut, &other_cut) {
-            (Cut::Fold(_) | Cut::Pair, Cut::Fold(_) | Cut::Pair) => drawn == other_drawn,
+            (CutKind::Fold(_) | CutKind::Pair, CutKind::Fold(_) | CutKind::Pair) => drawn == other_drawn,
             (one, other) => one == other,
         };
         let along = same_way(kept, &sew, joined, &to, seam_face_same(file, seam));
@@ -124,7 +124,7 @@ impl Join {
     }
 
     /// The edges of the joined outline, from the one after the seam on.
-    fn joints(&self, file: &GarmentFile) -> Vec<Joint> {
+    fn joints(&self, file: &GarmentFile) -> Vec<JoinedEdge> {
         let after = |of: usize| {
             let (count, edge) = (self.sheets[of].edges.len(), self.edge[of]);
             (1..count).map(move |k| (of, (edge + k) % count))
@@ -136,17 +136,17 @@ impl Join {
         if goes_on(ring[ring.len() - 1], ring[0]) {
             ring.rotate_left(1);
         }
-        let mut joints: Vec<Joint> = Vec::new();
+        let mut joints: Vec<JoinedEdge> = Vec::new();
         for (k, &(of, edge)) in ring.iter().enumerate() {
             let path = self.path(of, &self.sheets[of].edges[edge]);
             if let Some(last) = joints.last_mut().filter(|_| goes_on(ring[k - 1], (of, edge))) {
-                last.sources.push(Source { of, edge, from: last.path.length() });
+                last.sources.push(SourceEdge { of, edge, from: last.path.length() });
                 let straight = last.path.joined(&path);
                 last.path =
                     if in_line(&last.path, &path) { Path::line(last.path.start(), path.end()) } else { straight };
                 continue;
             }
-            joints.push(Joint { name: String::new(), path, sources: vec![Source { of, edge, from: 0.0 }] });
+            joints.push(JoinedEdge { name: String::new(), path, sources: vec![SourceEdge { of, edge, from: 0.0 }] });
         }
         for first in [0, 1] {
             for k in 0..joints.len() {
@@ -178,7 +178,7 @@ impl Join {
     }
 
     /// The edge, and the place on it, of a place on an edge of one of the pieces. `None` on the seam.
-    fn place(&self, joints: &[Joint], of: usize, edge: &str, at: Quantity) -> Option<(String, Quantity)> {
+    fn place(&self, joints: &[JoinedEdge], of: usize, edge: &str, at: Quantity) -> Option<(String, Quantity)> {
         let sheet = &self.sheets[of];
         let old = sheet.names.iter().position(|n| n == edge)?;
         let s = if at.is_percent() { at.value(sheet.unit) * sheet.edges[old].length() } else { at.value(sheet.unit) };
@@ -188,7 +188,7 @@ impl Join {
         Some((joint.name.clone(), if alone { at } else { length_in(from + s, at.unit, sheet.unit) }))
     }
 
-    fn piece(&self, file: &GarmentFile, seam: &Located<String>, joints: &[Joint]) -> Result<PieceFile, Fault> {
+    fn piece(&self, file: &GarmentFile, seam: &Located<String>, joints: &[JoinedEdge]) -> Result<PieceFile, Fault> {
         let scale = 1.0 / self.sheets[0].unit.factor();
         let pieces = self.index.map(|k| &file.pieces[k]);
         let mut new = pieces[0].clone();
@@ -244,12 +244,13 @@ impl Join {
         &self,
         file: &GarmentFile,
         seam: &Located<String>,
-        joints: &[Joint],
-    ) -> Result<(Option<Located<Cut>>, Option<Located<crate::pattern::Side>>), Fault> {
+        joints: &[JoinedEdge],
+    ) -> Result<(Option<Located<CutKind>>, Option<Located<crate::pattern::Side>>), Fault> {
         let folds = [0, 1].map(|of| self.sheets[of].fold.map(|edge| (of, edge)));
         let own = &file.pieces[self.index[0]];
         let Some((of, edge)) = folds[0].or(folds[1]) else { return Ok((own.cut.clone(), own.drawn)) };
-        let holds = |j: &&Joint, (of, edge): (usize, usize)| j.sources.iter().any(|s| s.of == of && s.edge == edge);
+        let holds =
+            |j: &&JoinedEdge, (of, edge): (usize, usize)| j.sources.iter().any(|s| s.of == of && s.edge == edge);
         let Some(joint) = joints.iter().find(|j| holds(j, (of, edge))) else {
             let reason = "the seam is its fold".to_owned();
             return Err((seam.at, Problem::AlterShape { piece: self.sheets[of].piece.clone(), reason }));
@@ -261,11 +262,11 @@ impl Join {
             return Err((seam.at, Problem::AlterFold { piece, edge, reason }));
         }
         let drawn = laying::cut_of(file, self.index[of]).1;
-        let cut = Cut::Fold(joint.name.clone());
+        let cut = CutKind::Fold(joint.name.clone());
         Ok((Some(Located::new(cut, seam.at)), Some(Located::new(drawn, seam.at))))
     }
 
-    fn dart(&self, joints: &[Joint], of: usize, dart: &DartFile) -> Result<DartFile, Fault> {
+    fn dart(&self, joints: &[JoinedEdge], of: usize, dart: &DartFile) -> Result<DartFile, Fault> {
         let mut new = dart.clone();
         let scale = self.sheets[of].unit.factor();
         let moved = |p: [f64; 2]| {
@@ -293,7 +294,7 @@ impl Join {
         Ok(new)
     }
 
-    fn pleat(&self, joints: &[Joint], of: usize, pleat: &PleatFile) -> Option<PleatFile> {
+    fn pleat(&self, joints: &[JoinedEdge], of: usize, pleat: &PleatFile) -> Option<PleatFile> {
         let mut new = pleat.clone();
         for at in &mut new.at {
             let (name, place) = self.place(joints, of, &pleat.edge.value, at.value)?;
@@ -304,11 +305,11 @@ impl Join {
     }
 
     /// The allowances of the edges, as each had them.
-    fn allowance(&self, pieces: [&PieceFile; 2], joints: &[Joint]) -> Option<AllowanceFile> {
+    fn allowance(&self, pieces: [&PieceFile; 2], joints: &[JoinedEdge]) -> Option<AllowanceFile> {
         if pieces[0].allowance == pieces[1].allowance && !matches!(pieces[0].allowance, Some(AllowanceFile::Edges(_))) {
             return pieces[0].allowance.clone();
         }
-        let width = |s: &Source| -> Option<Located<AllowanceWidth>> {
+        let width = |s: &SourceEdge| -> Option<Located<AllowanceWidth>> {
             match pieces[s.of].allowance.as_ref()? {
                 AllowanceFile::All(width) => Some(*width),
                 AllowanceFile::Edges(widths) => {
@@ -316,7 +317,7 @@ impl Join {
                 }
             }
         };
-        let of_edge = |j: &Joint| {
+        let of_edge = |j: &JoinedEdge| {
             let width = width(&j.sources[0])?;
             Some((Located::new(j.name.clone(), width.at), width))
         };
@@ -325,7 +326,7 @@ impl Join {
     }
 
     /// Lets seams, free edges and closures name the edges as they are called now.
-    fn rename(&self, file: &mut GarmentFile, joints: &[Joint]) {
+    fn rename(&self, file: &mut GarmentFile, joints: &[JoinedEdge]) {
         let now = |text: &str| -> Option<String> {
             let (name, range) = text.split_once('@').map_or((text, String::new()), |(n, r)| (n, format!("@{r}")));
             let words = Words::parse(name).ok()?;
@@ -333,7 +334,7 @@ impl Join {
             let edge = words.edge?;
             let old = self.sheets[of].names.iter().position(|n| *n == edge)?;
             let joint = joints.iter().find(|j| j.sources.iter().any(|s| s.of == of && s.edge == old))?;
-            let side = words.side.map_or_else(String::new, |side| format!(".{}", side.letter()));
+            let side = words.side.map_or("", crate::pattern::Side::suffix);
             let copy = words.copy.map_or_else(String::new, |copy| format!(".{copy}"));
             Some(format!("{}{copy}.{}{side}{range}", self.sheets[0].piece, joint.name))
         };

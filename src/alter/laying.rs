@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, GarmentFile, PieceFile, Side};
+use crate::pattern::{CutKind, GarmentFile, PieceFile, Side};
 
 /// A drawing as it lies in a cut piece: `p ↦ linear · p + shift`.
 #[derive(Clone, Debug)]
@@ -27,13 +27,13 @@ impl Laying {
 }
 
 /// How the piece with this index is cut, and the side that is drawn, also where it has them by `like`.
-pub(super) fn cut_of(file: &GarmentFile, index: usize) -> (Cut, Side) {
+pub(super) fn cut_of(file: &GarmentFile, index: usize) -> (CutKind, Side) {
     let cut = inherited(file, index, |p| p.cut.as_ref().map(|c| c.value.clone()));
     let drawn = inherited(file, index, |p| p.drawn.as_ref().map(|d| d.value));
-    (cut.unwrap_or(Cut::One), drawn.unwrap_or(Side::Left))
+    (cut.unwrap_or(CutKind::One), drawn.unwrap_or(Side::Left))
 }
 
-/// What a piece states, or the first of those that it is like.
+/// The statement of a piece, or of the first of those that it is like.
 fn inherited<T>(file: &GarmentFile, index: usize, of: impl Fn(&PieceFile) -> Option<T>) -> Option<T> {
     let mut piece = &file.pieces[index];
     // A circle of `like` is reported elsewhere.
@@ -53,13 +53,13 @@ pub(super) fn layings(file: &GarmentFile, index: usize, fold: Option<&Path>) -> 
     let as_drawn = |piece: String| Laying { piece, linear: Matrix2::identity(), shift: Vec2::zeros() };
     let (cut, drawn) = cut_of(file, index);
     match (cut, fold) {
-        (Cut::Count(n), _) => (1..=n).map(|copy| as_drawn(format!("{name}.{copy}"))).collect(),
-        (Cut::Pair, _) => {
+        (CutKind::Count(n), _) => (1..=n).map(|copy| as_drawn(format!("{name}.{copy}"))).collect(),
+        (CutKind::Pair, _) => {
             let linear = Matrix2::new(-1.0, 0.0, 0.0, 1.0);
-            let other = Laying { piece: format!("{name}.{}", drawn.other().letter()), linear, shift: Vec2::zeros() };
-            vec![as_drawn(format!("{name}.{}", drawn.letter())), other]
+            let other = Laying { piece: format!("{name}{}", drawn.other().suffix()), linear, shift: Vec2::zeros() };
+            vec![as_drawn(format!("{name}{}", drawn.suffix())), other]
         }
-        (Cut::Fold(_), Some(axis)) => {
+        (CutKind::Fold(_), Some(axis)) => {
             let along = (axis.end() - axis.start()).try_normalize(0.0).unwrap_or_else(Vec2::y);
             let linear = 2.0 * along * along.transpose() - Matrix2::identity();
             let shift = axis.start() - linear * axis.start();

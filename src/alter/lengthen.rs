@@ -1,6 +1,6 @@
 //! Pieces made longer or shorter across a line.
 
-use super::sheet::Sheet;
+use super::sheet::AlteredPiece;
 use super::{Fault, name};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{GarmentFile, Located, Problem, Quantity};
@@ -13,7 +13,7 @@ const TIMES: f64 = 4.0;
 const SAME: f64 = 1e-9;
 
 /// A piece that is made longer or shorter, and by how much.
-pub(super) struct Zone<'f> {
+pub(super) struct LengthenedPiece<'f> {
     pub(super) at: &'f Located<Quantity>,
     pub(super) by: &'f Located<Quantity>,
     /// −1 to shorten.
@@ -23,18 +23,18 @@ pub(super) struct Zone<'f> {
 }
 
 /// The plane as it is stretched: nothing before `from`, evenly up to `to`, shifted beyond.
-struct Stretch {
+struct PlaneStretch {
     axis: Vec2,
     from: f64,
     to: f64,
     by: f64,
 }
 
-impl Zone<'_> {
+impl LengthenedPiece<'_> {
     /// Carries it out on a piece.
     pub(super) fn apply(&self, file: &mut GarmentFile, piece: &Located<String>) -> Result<(), Fault> {
         let index = name::piece(file, piece)?;
-        let mut sheet = Sheet::read(file, index)?;
+        let mut sheet = AlteredPiece::read(file, index)?;
         let stretch = self.stretch(&sheet)?;
         for edge in 0..sheet.edges.len() {
             stretch_edge(&mut sheet, edge, &stretch);
@@ -44,7 +44,7 @@ impl Zone<'_> {
         sheet.write(file, index)
     }
 
-    fn stretch(&self, sheet: &Sheet) -> Result<Stretch, Fault> {
+    fn stretch(&self, sheet: &AlteredPiece) -> Result<PlaneStretch, Fault> {
         let axis = if self.across { Vec2::x() } else { Vec2::y() };
         let (from, by) = (self.at.value.value(sheet.unit), self.by.value.value(sheet.unit));
         let along = sheet.edges.iter().flat_map(|e| e.sampled(1e-5)).map(|p| axis.dot(&p));
@@ -68,11 +68,11 @@ impl Zone<'_> {
             let expected = format!("less than the {:.1} mm it is taken from", over * 1e3);
             return Err((self.by.at, Problem::AlterAmount { what, expected, found: by * 1e3 }));
         }
-        Ok(Stretch { axis, from, to: from + over, by: self.sign * by })
+        Ok(PlaneStretch { axis, from, to: from + over, by: self.sign * by })
     }
 }
 
-impl Stretch {
+impl PlaneStretch {
     fn point(&self, p: Vec2) -> Vec2 {
         let c = self.axis.dot(&p);
         let share = ((c - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
@@ -112,7 +112,7 @@ impl Stretch {
     }
 }
 
-fn stretch_edge(sheet: &mut Sheet, edge: usize, stretch: &Stretch) {
+fn stretch_edge(sheet: &mut AlteredPiece, edge: usize, stretch: &PlaneStretch) {
     let path = &sheet.edges[edge];
     let high = path.sampled(1e-5).iter().map(|p| stretch.axis.dot(p)).fold(f64::MIN, f64::max);
     if high <= stretch.from {

@@ -58,8 +58,9 @@ pub fn carry_out(file: &mut GarmentFile, list: &[Located<AlterationFile>], findi
 
 /// Lengths as drawn of the edges of every piece with an outline of its own, metres: `piece.edge` each.
 pub fn edge_lengths(file: &GarmentFile) -> Vec<(String, f64)> {
-    let sheets = (0..file.pieces.len()).filter_map(|index| sheet::Sheet::read(file, index).ok());
-    let lengths = |s: sheet::Sheet| (0..s.edges.len()).map(|i| (s.shown(i), s.edges[i].length())).collect::<Vec<_>>();
+    let sheets = (0..file.pieces.len()).filter_map(|index| sheet::AlteredPiece::read(file, index).ok());
+    let lengths =
+        |s: sheet::AlteredPiece| (0..s.edges.len()).map(|i| (s.shown(i), s.edges[i].length())).collect::<Vec<_>>();
     sheets.flat_map(lengths).collect()
 }
 
@@ -68,7 +69,7 @@ pub fn edge_lengths(file: &GarmentFile) -> Vec<(String, f64)> {
 pub fn sewn_lengths(file: &GarmentFile) -> [Vec<(String, f64)>; 2] {
     let [mut edges, mut darts] = [Vec::new(), Vec::new()];
     for (index, piece) in file.pieces.iter().enumerate() {
-        let Ok(sheet) = sheet::Sheet::read(file, index) else { continue };
+        let Ok(sheet) = sheet::AlteredPiece::read(file, index) else { continue };
         let intake = |dart: usize| piece.darts[dart].intake.value.value(sheet.unit);
         let wedges = sheet.wedges(piece);
         for edge in 0..sheet.edges.len() {
@@ -87,8 +88,13 @@ fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(
         AlterationFile::Move { edge, at } => shift::move_points(file, edge, at),
         AlterationFile::Lengthen { pieces, at, by, over, across, shorter } => {
             let sign = if *shorter { -1.0 } else { 1.0 };
-            let zone =
-                lengthen::Zone { at, by, sign, over: over.as_ref(), across: across.as_ref().is_some_and(|a| a.value) };
+            let zone = lengthen::LengthenedPiece {
+                at,
+                by,
+                sign,
+                over: over.as_ref(),
+                across: across.as_ref().is_some_and(|a| a.value),
+            };
             // Of pieces that are like one another each is altered once.
             pieces.iter().try_for_each(|piece| name::piece(file, piece).map(drop))?;
             pieces.iter().try_for_each(|piece| zone.apply(file, piece))

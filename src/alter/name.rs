@@ -1,7 +1,7 @@
 //! Finding what alterations name: pieces, edges, points of edges, darts, sizes.
 
 use super::Fault;
-use super::sheet::{Mark, Sheet};
+use super::sheet::{AlteredPiece, EdgeMark};
 use crate::input::nearest;
 use crate::pattern::{
     DartFile, GarmentFile, Located, Problem, SizeFile, Words, own_shape, parse_quantity, unknown_piece,
@@ -33,14 +33,14 @@ pub(super) fn edge(
     file: &mut GarmentFile,
     text: &Located<String>,
     sided: bool,
-) -> Result<(usize, Sheet, usize), Fault> {
+) -> Result<(usize, AlteredPiece, usize), Fault> {
     let (index, name) = words(file, text, sided)?;
-    let sheet = Sheet::read(file, index)?;
+    let sheet = AlteredPiece::read(file, index)?;
     let edge = edge_of(&sheet, &name).map_err(|problem| (text.at, problem))?;
     Ok((index, sheet, edge))
 }
 
-fn edge_of(sheet: &Sheet, name: &str) -> Result<usize, Problem> {
+fn edge_of(sheet: &AlteredPiece, name: &str) -> Result<usize, Problem> {
     sheet.names.iter().position(|n| n == name).ok_or_else(|| Problem::UnknownEdge {
         name: format!("{}.{name}", sheet.piece),
         nearest: nearest(name, sheet.names.iter().map(String::as_str)).map(str::to_owned),
@@ -49,13 +49,13 @@ fn edge_of(sheet: &Sheet, name: &str) -> Result<usize, Problem> {
 }
 
 /// A point of an outline, `piece.edge@50 %`.
-pub(super) fn point(file: &mut GarmentFile, text: &Located<String>) -> Result<(usize, Mark), Fault> {
+pub(super) fn point(file: &mut GarmentFile, text: &Located<String>) -> Result<(usize, EdgeMark), Fault> {
     let bad = || (text.at, Problem::AlterPoint(text.value.clone()));
     let (of, at) = text.value.split_once('@').ok_or_else(bad)?;
     let at = parse_quantity(at).map_err(|_| bad())?;
     let (index, sheet, edge) = edge(file, &Located::new(of.trim().to_owned(), text.at), false)?;
     let at = sheet.place(edge, &Located::new(at, text.at))?;
-    Ok((index, Mark { edge, at }))
+    Ok((index, EdgeMark { edge, at }))
 }
 
 /// A dart on an edge, `piece.dart`: indices of piece and dart.

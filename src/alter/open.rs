@@ -1,6 +1,6 @@
 //! Pieces cut open: slashed and spread, or a dart's intake turned to another place.
 
-use super::sheet::{Mark, Sheet, Wedge, length_in};
+use super::sheet::{AlteredPiece, EdgeDart, EdgeMark, length_in};
 use super::{Fault, name};
 use crate::geometry::{Path, Vec2, encloses};
 use crate::pattern::{DartFile, DartShape, GarmentFile, Located, Problem, Quantity};
@@ -12,12 +12,12 @@ const CHORD: f64 = 1e-5;
 
 /// A motion that keeps lengths: `p ↦ turn · p + shift`.
 #[derive(Clone, Copy, Debug)]
-struct Motion {
+struct RigidMotion {
     turn: nalgebra::Matrix2<f64>,
     shift: Vec2,
 }
 
-impl Motion {
+impl RigidMotion {
     const STILL: Self = Self { turn: nalgebra::Matrix2::new(1.0, 0.0, 0.0, 1.0), shift: Vec2::new(0.0, 0.0) };
 
     /// Turned about a point, and then shifted.
@@ -41,7 +41,7 @@ impl Motion {
     }
 }
 
-impl PartialEq for Motion {
+impl PartialEq for RigidMotion {
     fn eq(&self, other: &Self) -> bool {
         self.turn == other.turn && self.shift == other.shift
     }
@@ -56,7 +56,7 @@ pub(super) struct Bit {
 }
 
 /// The outline clockwise from one place to another.
-pub(super) fn chain(sheet: &Sheet, from: Mark, to: Mark) -> Vec<Bit> {
+pub(super) fn chain(sheet: &AlteredPiece, from: EdgeMark, to: EdgeMark) -> Vec<Bit> {
     let bit = |edge: usize, a: f64, b: f64| {
         (b - a > NONE).then(|| Bit { edge, was: Some([a, b]), path: sheet.edges[edge].part(a, b) })
     };
@@ -78,7 +78,7 @@ pub(super) fn chain(sheet: &Sheet, from: Mark, to: Mark) -> Vec<Bit> {
 /// One of the two parts of the cloth, and what it does.
 pub(super) struct Half {
     pub(super) bits: Vec<Bit>,
-    motion: Motion,
+    motion: RigidMotion,
     /// Its rim, the cut included.
     rim: Vec<[Vec2; 2]>,
 }
@@ -88,7 +88,7 @@ impl Half {
         let mut points: Vec<Vec2> = bits.iter().flat_map(|b| b.path.sampled(CHORD)).collect();
         points.extend(cut);
         let rim = (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect();
-        Self { bits, motion: Motion::STILL, rim }
+        Self { bits, motion: RigidMotion::STILL, rim }
     }
 
     pub(super) fn contains(&self, p: Vec2) -> bool {
@@ -113,21 +113,21 @@ impl Half {
 /// The two parts put together again. `at_end` is the edge that the opening between the end of the first part and the
 /// start of the second belongs to, `at_start` that of the other opening.
 struct Reunion<'s> {
-    sheet: &'s mut Sheet,
+    sheet: &'s mut AlteredPiece,
     halves: [Half; 2],
     at_end: usize,
     at_start: usize,
 }
 
 /// A stretch that was let into an edge: from here to there.
-struct Mouth {
+struct LetIn {
     edge: usize,
     at: [f64; 2],
 }
 
 impl Reunion<'_> {
     /// Rebuilds the outline with all that lies on it. Gives the openings at the end and the start of the first part.
-    fn carry_out(self) -> Result<[Option<Mouth>; 2], Fault> {
+    fn carry_out(self) -> Result<[Option<LetIn>; 2], Fault> {
         let Self { sheet, halves, at_end, at_start } = self;
         let [first, second] = [0, 1].map(|i| halves[i].moved());
         let (ends, starts) = (|bits: &[Bit]| bits[bits.len() - 1].path.end(), |bits: &[Bit]| bits[0].path.start());
@@ -145,14 +145,14 @@ impl Reunion<'_> {
         carry_points(sheet, &halves)?;
         let mouth = |i: usize| {
             let (edge, from) = (ring[i].edge, offsets[i]);
-            Mouth { edge, at: [from, from + ring[i].path.length()] }
+            LetIn { edge, at: [from, from + ring[i].path.length()] }
         };
         Ok([has[0].then(|| mouth(end_index)), has[1].then(|| mouth(start_index))])
     }
 }
 
 /// Makes the edges of the bits of a ring. Gives the place of each bit on its edge.
-fn rebuild(sheet: &mut Sheet, ring: &[Bit]) -> Vec<f64> {
+fn rebuild(sheet: &mut AlteredPiece, ring: &[Bit]) -> Vec<f64> {
     let count = ring.len();
     let begins = |i: &usize| ring[*i].edge == 0 && ring[(i + count - 1) % count].edge != 0;
     let from_start = |i: &usize| ring[*i].edge == 0 && ring[*i].was.is_some_and(|w| w[0] == 0.0);
@@ -175,7 +175,7 @@ fn rebuild(sheet: &mut Sheet, ring: &[Bit]) -> Vec<f64> {
     offsets
 }
 
-fn carry_marks(sheet: &mut Sheet, ring: &[Bit], offsets: &[f64]) -> Result<(), Fault> {
+fn carry_marks(sheet: &mut AlteredPiece, ring: &[Bit], offsets: &[f64]) -> Result<(), Fault> {
     for i in 0..sheet.marks.len() {
         let Some(mark) = sheet.marks[i] else { continue };
         let holds =
@@ -185,12 +185,12 @@ fn carry_marks(sheet: &mut Sheet, ring: &[Bit], offsets: &[f64]) -> Result<(), F
             return Err((sheet.at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
         };
         let from = ring[bit].was.map_or(0.0, |w| w[0]);
-        sheet.marks[i] = Some(Mark { edge: mark.edge, at: offsets[bit] + mark.at - from });
+        sheet.marks[i] = Some(EdgeMark { edge: mark.edge, at: offsets[bit] + mark.at - from });
     }
     Ok(())
 }
 
-fn carry_points(sheet: &mut Sheet, halves: &[Half; 2]) -> Result<(), Fault> {
+fn carry_points(sheet: &mut AlteredPiece, halves: &[Half; 2]) -> Result<(), Fault> {
     let of = |p: Vec2| &halves[usize::from(!halves[0].contains(p))].motion;
     let grain = sheet.grain_points;
     for point in sheet.points.iter_mut().skip(grain) {
@@ -212,10 +212,10 @@ fn carry_points(sheet: &mut Sheet, halves: &[Half; 2]) -> Result<(), Fault> {
 
 /// That no dart is cut through, but for one.
 pub(super) fn darts_whole(
-    sheet: &Sheet,
-    wedges: &[Wedge],
+    sheet: &AlteredPiece,
+    wedges: &[EdgeDart],
     but: Option<usize>,
-    cuts: &[Mark],
+    cuts: &[EdgeMark],
     half: &Half,
 ) -> Result<(), Fault> {
     for wedge in wedges.iter().filter(|w| Some(w.dart) != but) {
@@ -244,7 +244,7 @@ pub(super) fn spread(
         let [one, other] = [index, other].map(|i| file.pieces[i].name.value.clone());
         return Err((ends[1].at, Problem::AlterTwoPieces { what: "spread", one, other }));
     }
-    let mut sheet = Sheet::read(file, index)?;
+    let mut sheet = AlteredPiece::read(file, index)?;
     if let Some(end) = [from, to].iter().zip(ends).find(|(m, _)| sheet.fold == Some(m.edge)) {
         let reason = "a slash from it would part the fold; spread elsewhere, or parallel to it by 'move'".to_owned();
         let (piece, edge) = (sheet.piece.clone(), sheet.names[end.0.edge].clone());
@@ -267,13 +267,14 @@ pub(super) fn spread(
     let open = Vec2::new(-along.y, along.x);
     // Each half turns by half the angle: the chord of the opening is then as wide as asked for.
     let angle = ((by_m - to_m) / (2.0 * long)).asin();
-    let motions = [Motion::about(q, angle, open * (to_m / 2.0)), Motion::about(q, -angle, open * (-to_m / 2.0))];
+    let motions =
+        [RigidMotion::about(q, angle, open * (to_m / 2.0)), RigidMotion::about(q, -angle, open * (-to_m / 2.0))];
     halves[0].motion = motions[0];
     halves[1].motion = motions[1];
     if let Some(fold) = sheet.fold {
         let fixed = usize::from(!halves[0].has(fold));
         halves[1 - fixed].motion = motions[1 - fixed].seen_from(&motions[fixed]);
-        halves[fixed].motion = Motion::STILL;
+        halves[fixed].motion = RigidMotion::STILL;
     }
     Reunion { sheet: &mut sheet, halves, at_end: to.edge, at_start: from.edge }.carry_out()?;
     sheet.write(file, index)
@@ -298,15 +299,15 @@ pub(super) fn pivot(
         let (what, found) = ("share".to_owned(), format!("{part}"));
         return Err((share.at, Problem::OutOfRange { what, expected: "above 0 and at most 100 %", found }));
     }
-    let mut sheet = Sheet::read(file, index)?;
+    let mut sheet = AlteredPiece::read(file, index)?;
     let wedges = sheet.wedges(&file.pieces[index]);
     let Some(wedge) = wedges.iter().find(|w| w.dart == number).cloned() else {
         let reason = format!("'{}' is a fish-eye dart; a dart on an edge can be moved", dart.value);
         return Err((dart.at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
     };
-    let turning = Turning { wedge, place, part };
+    let turning = DartTurning { wedge, place, part };
     let [opened, left] = turning.carry_out(&mut sheet, &wedges, [dart, to])?;
-    let marked = |sheet: &Sheet, mouth: &Mouth| new_dart(sheet, mouth, turning.wedge.tip);
+    let marked = |sheet: &AlteredPiece, mouth: &LetIn| new_dart(sheet, mouth, turning.wedge.tip);
     let old = file.pieces[index].darts[number].clone();
     let opened = opened.map(|mouth| (marked(&sheet, &mouth), sheet.names[mouth.edge].clone()));
     let left = left.filter(|_| part < 1.0).map(|mouth| (marked(&sheet, &mouth), sheet.names[mouth.edge].clone()));
@@ -334,28 +335,28 @@ pub(super) fn pivot(
 }
 
 /// Middle of the mouth, intake and length of a dart with a straight mouth.
-fn new_dart(sheet: &Sheet, mouth: &Mouth, tip: Vec2) -> [f64; 3] {
+fn new_dart(sheet: &AlteredPiece, mouth: &LetIn, tip: Vec2) -> [f64; 3] {
     let [from, to] = mouth.at;
     let [one, other] = mouth.at.map(|s| sheet.edges[mouth.edge].point(s));
     [(from + to) / 2.0, to - from, ((one + other) / 2.0 - tip).norm()]
 }
 
 /// A dart, the place its intake is turned to, and the part that is turned.
-struct Turning {
-    wedge: Wedge,
-    place: Mark,
+struct DartTurning {
+    wedge: EdgeDart,
+    place: EdgeMark,
     part: f64,
 }
 
-impl Turning {
+impl DartTurning {
     /// Gives the mouths at the new place and the old one.
     fn carry_out(
         &self,
-        sheet: &mut Sheet,
-        wedges: &[Wedge],
+        sheet: &mut AlteredPiece,
+        wedges: &[EdgeDart],
         spots: [&Located<String>; 2],
-    ) -> Result<[Option<Mouth>; 2], Fault> {
-        let Wedge { edge, mouth, tip, dart } = self.wedge;
+    ) -> Result<[Option<LetIn>; 2], Fault> {
+        let EdgeDart { edge, mouth, tip, dart } = self.wedge;
         let refuse = |reason: String| (spots[1].at, Problem::AlterShape { piece: sheet.piece.clone(), reason });
         if self.place.edge == edge && (mouth[0]..=mouth[1]).contains(&self.place.at) {
             return Err(refuse(format!("'{}' lies in the mouth of the dart itself", spots[1].value)));
@@ -365,7 +366,7 @@ impl Turning {
             let reason = "a dart there would bend the fold".to_owned();
             return Err((spots[1].at, Problem::AlterFold { piece, edge, reason }));
         }
-        let [one, other] = mouth.map(|at| Mark { edge, at });
+        let [one, other] = mouth.map(|at| EdgeMark { edge, at });
         let cut = [tip];
         let mut halves =
             [Half::new(chain(sheet, other, self.place), &cut), Half::new(chain(sheet, self.place, one), &cut)];
@@ -382,7 +383,7 @@ impl Turning {
             (None, None) => usize::from(halves[0].length() < halves[1].length()),
         };
         let turned = 1 - fixed;
-        halves[turned].motion = Motion::about(tip, if turned == 0 { angle } else { -angle }, Vec2::zeros());
+        halves[turned].motion = RigidMotion::about(tip, if turned == 0 { angle } else { -angle }, Vec2::zeros());
         // The dart's own mark is written anew.
         sheet.forget_dart(dart);
         Reunion { sheet, halves, at_end: self.place.edge, at_start: edge }.carry_out()

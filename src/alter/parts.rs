@@ -1,7 +1,7 @@
-//! What lies on the edges of a piece that is cut in two, and what names them.
+//! The marks on the edges of a piece that is cut in two, and the references to these edges.
 
 use super::Fault;
-use super::sheet::{Sheet, length_in};
+use super::sheet::{AlteredPiece, length_in};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     AllowanceFile, DartShape, Findings, GarmentFile, Located, PieceFile, Problem, Quantity, Words, expand, glob,
@@ -30,7 +30,7 @@ pub(super) struct Parted {
 impl Parted {
     pub(super) fn new<'p>(
         piece: &str,
-        sheet: &Sheet,
+        sheet: &AlteredPiece,
         parts: impl Iterator<Item = (&'p str, &'p [PartEdge])> + Clone,
     ) -> Self {
         let stretches = |edge: usize| {
@@ -50,7 +50,7 @@ impl Parted {
         Self { piece: piece.to_owned(), changed }
     }
 
-    /// What stands for a reference now. `None` where that is as it was.
+    /// The references that take the place of one. `None` where it stays as it was.
     fn now(&self, text: &Located<String>) -> Result<Option<Vec<Located<String>>>, Fault> {
         let (name, range) = text.value.split_once('@').map_or((text.value.as_str(), None), |(n, r)| (n, Some(r)));
         let Ok(words) = Words::parse(name) else { return Ok(None) };
@@ -60,7 +60,7 @@ impl Parted {
             return Err((text.at, Problem::AlterPart(text.value.clone())));
         }
         let copy = words.copy.map_or_else(String::new, |copy| format!(".{copy}"));
-        let side = words.side.map_or_else(String::new, |side| format!(".{}", side.letter()));
+        let side = words.side.map_or("", crate::pattern::Side::suffix);
         let named = |[piece, edge]: &[String; 2]| Located::new(format!("{piece}{copy}.{edge}{side}"), text.at);
         Ok(Some(stretches.now.iter().map(named).collect()))
     }
@@ -130,7 +130,7 @@ fn faults(file: &GarmentFile) -> usize {
 /// Leaves to a part of a piece what lies on its edges and inside it.
 pub(super) fn share_out(
     piece: &mut PieceFile,
-    sheet: &Sheet,
+    sheet: &AlteredPiece,
     edges: &[PartEdge],
     inside: &dyn Fn(Vec2) -> bool,
 ) -> Result<(), Fault> {
@@ -183,7 +183,7 @@ pub(super) fn share_out(
 }
 
 /// The edge of a part, and the place on it, of a place on an old edge. `None` where that is on the other part.
-fn place(sheet: &Sheet, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<(String, Quantity)> {
+fn place(sheet: &AlteredPiece, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<(String, Quantity)> {
     let old = sheet.names.iter().position(|n| n == edge)?;
     let length = sheet.edges[old].length();
     let s = if at.is_percent() { at.value(sheet.unit) * length } else { at.value(sheet.unit) };
@@ -197,7 +197,7 @@ fn place(sheet: &Sheet, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<
 }
 
 /// Leaves to a part the holes and lines that lie in it.
-fn runs(piece: &mut PieceFile, sheet: &Sheet, inside: &dyn Fn(Vec2) -> bool) -> Result<(), Fault> {
+fn runs(piece: &mut PieceFile, sheet: &AlteredPiece, inside: &dyn Fn(Vec2) -> bool) -> Result<(), Fault> {
     let holes = piece.holes.len();
     let mut own = Vec::new();
     for (i, run) in sheet.runs.iter().enumerate() {

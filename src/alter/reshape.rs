@@ -2,8 +2,8 @@
 
 use super::course::{between, carried, fitted, tilted};
 use super::laying::{Laying, layings};
-use super::sheet::{Mark, Sheet, Wedge, length_in, rounded};
-use super::shift::Field;
+use super::sheet::{AlteredPiece, EdgeDart, EdgeMark, length_in, rounded};
+use super::shift::EdgeShift;
 use super::{Fault, even, name};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{DartShape, Findings, GarmentFile, Located, Quantity, Unit};
@@ -52,11 +52,11 @@ fn reshaped(file: &GarmentFile, given: Given) -> Result<Reshaped, Fault> {
         name::piece(&mut own, &name)?;
     }
     for index in 0..own.pieces.len() {
-        let (shape, apart) = Shape::new(&own, index, given)?;
+        let (shape, apart) = ShiftedPiece::new(&own, index, given)?;
         uneven = uneven.max(apart);
         shapes.push(shape);
     }
-    if shapes.iter().all(Shape::is_still) {
+    if shapes.iter().all(ShiftedPiece::is_still) {
         return Ok(Reshaped { file: file.clone(), uneven, seams: 0.0 });
     }
     let (file, seams) = even::evened(&own, &shapes)?;
@@ -65,20 +65,20 @@ fn reshaped(file: &GarmentFile, given: Given) -> Result<Reshaped, Fault> {
 
 /// A stretch of an edge: all of it, what is left of it beside darts, or the mouth of a dart.
 #[derive(Clone, Debug)]
-struct Stretch {
+struct EdgeStretch {
     from: f64,
     to: f64,
-    field: Field,
+    field: EdgeShift,
     /// Index among the wedges.
     mouth: Option<usize>,
 }
 
 /// A piece and how it is shifted.
-pub(super) struct Shape {
+pub(super) struct ShiftedPiece {
     index: usize,
-    sheet: Sheet,
-    wedges: Vec<Wedge>,
-    edges: Vec<Vec<Stretch>>,
+    sheet: AlteredPiece,
+    wedges: Vec<EdgeDart>,
+    edges: Vec<Vec<EdgeStretch>>,
     /// Shifts of the wedges' tips.
     tips: Vec<Vec2>,
     /// Shifts of the sheet's points.
@@ -86,7 +86,7 @@ pub(super) struct Shape {
     /// Fish-eye darts by their indices, with their top, left, bottom and right corners, shifted.
     eyes: Vec<(usize, [Vec2; 4])>,
     /// Shifts along holes and lines.
-    runs: Vec<Field>,
+    runs: Vec<EdgeShift>,
 }
 
 /// The shift of a drawing: the mean of those of the pieces cut from it.
@@ -111,10 +111,10 @@ impl Mean<'_> {
     }
 }
 
-impl Shape {
+impl ShiftedPiece {
     /// The shape of the piece with this index, and how far the pieces that are cut from it differ.
     fn new(file: &GarmentFile, index: usize, given: Given) -> Result<(Self, f64), Fault> {
-        let mut sheet = Sheet::read(file, index)?;
+        let mut sheet = AlteredPiece::read(file, index)?;
         sheet.fold_by_like(file, index);
         let layings = layings(file, index, sheet.fold.map(|f| &sheet.edges[f]));
         let mean = Mean { layings: &layings, given };
@@ -191,7 +191,7 @@ impl Shape {
     }
 
     /// Shifts an edge with its marks, and says where the mouths of its darts have come to lie.
-    fn bend(&self, sheet: &mut Sheet, edge: usize, tilt: &[Vec2], mouths: &mut [[f64; 2]]) {
+    fn bend(&self, sheet: &mut AlteredPiece, edge: usize, tilt: &[Vec2], mouths: &mut [[f64; 2]]) {
         let old = &self.sheet.edges[edge];
         let (length, ends) = (old.length(), [tilt[edge], tilt[(edge + 1) % tilt.len()]]);
         let marks = self.sheet.marks_on(edge);
@@ -216,7 +216,7 @@ impl Shape {
             wedges().for_each(|(k, w)| mouths[k] = w.mouth);
             return;
         };
-        for mark in sheet.marks.iter_mut().flatten().filter(|m: &&mut Mark| m.edge == edge) {
+        for mark in sheet.marks.iter_mut().flatten().filter(|m: &&mut EdgeMark| m.edge == edge) {
             if let Some(i) = marks.iter().position(|m| *m == mark.at) {
                 mark.at = moved[i];
             }
@@ -226,7 +226,7 @@ impl Shape {
     }
 
     /// The shift of a point of the drawing that lies on an edge, as the edge has been shifted. `None` beside the edges.
-    fn beside(&self, new: &Sheet, p: Vec2) -> Option<Vec2> {
+    fn beside(&self, new: &AlteredPiece, p: Vec2) -> Option<Vec2> {
         let near = |e: &usize| self.sheet.edges[*e].nearest(p).1;
         let edge = (0..self.corners()).min_by(|a, b| near(a).total_cmp(&near(b)))?;
         let (s, far) = self.sheet.edges[edge].nearest(p);
@@ -236,7 +236,7 @@ impl Shape {
         (far <= ON_EDGE).then(|| on(&new.edges[edge]) - on(&self.sheet.edges[edge]))
     }
 
-    fn write_wedge(&self, file: &mut GarmentFile, wedge: &Wedge, edge: &Path, mouth: [f64; 2], tip: Vec2) {
+    fn write_wedge(&self, file: &mut GarmentFile, wedge: &EdgeDart, edge: &Path, mouth: [f64; 2], tip: Vec2) {
         let unit = self.sheet.unit;
         let [one, other] = mouth.map(|s| edge.point(s));
         let middle = (one + other) / 2.0;
@@ -269,7 +269,7 @@ impl Shape {
     }
 }
 
-impl Stretch {
+impl EdgeStretch {
     /// Whether a place of its edge, which is so long, lies on it.
     fn holds(&self, s: f64, length: f64) -> bool {
         self.from <= s && (s < self.to || self.to >= length)
@@ -288,7 +288,7 @@ fn spots(path: &Path) -> Vec<Vec2> {
 }
 
 /// The stretches of an edge, each with its shift. That of the fold is even, for it stays straight.
-fn stretches(sheet: &Sheet, wedges: &[Wedge], edge: usize, by: &dyn Fn(Vec2) -> Vec2) -> Vec<Stretch> {
+fn stretches(sheet: &AlteredPiece, wedges: &[EdgeDart], edge: usize, by: &dyn Fn(Vec2) -> Vec2) -> Vec<EdgeStretch> {
     let path = &sheet.edges[edge];
     let length = path.length();
     let at = |s: f64| by(path.point(s));
@@ -298,13 +298,18 @@ fn stretches(sheet: &Sheet, wedges: &[Wedge], edge: usize, by: &dyn Fn(Vec2) -> 
         let ends = [at(from), at(to)];
         let straight = sheet.fold == Some(edge);
         let field = if straight { between(to - from, ends) } else { fitted(to - from, |s| at(from + s)) };
-        Stretch { from, to, field, mouth: None }
+        EdgeStretch { from, to, field, mouth: None }
     };
     let (mut out, mut from) = (Vec::new(), 0.0);
     for k in mouths {
         let [start, end] = wedges[k].mouth;
         out.push(open(from, start));
-        out.push(Stretch { from: start, to: end, field: between(end - start, [at(start), at(end)]), mouth: Some(k) });
+        out.push(EdgeStretch {
+            from: start,
+            to: end,
+            field: between(end - start, [at(start), at(end)]),
+            mouth: Some(k),
+        });
         from = end;
     }
     out.push(open(from, length));

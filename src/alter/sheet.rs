@@ -4,7 +4,7 @@ use super::Fault;
 use super::laying::cut_of;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
-    ClosureFile, Cut, DartFile, DartShape, GarmentFile, Located, PieceFile, Problem, Quantity, Spot, Unit,
+    ClosureFile, CutKind, DartFile, DartShape, GarmentFile, Located, PieceFile, Problem, Quantity, Spot, Unit,
 };
 
 /// Positions that changed by less than this stay as they are written, metres.
@@ -18,7 +18,7 @@ const DECIMALS: f64 = 1e6;
 
 /// A position on an edge: a notch, the middle of a dart's mouth, the place of a pleat.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct EdgeMark {
     /// Index of the edge.
     pub(super) edge: usize,
     /// Arc length from its start.
@@ -27,7 +27,7 @@ pub(super) struct Mark {
 
 /// Dart on an edge.
 #[derive(Clone, Debug)]
-pub(super) struct Wedge {
+pub(super) struct EdgeDart {
     /// Index in the piece's list.
     pub(super) dart: usize,
     pub(super) edge: usize,
@@ -37,7 +37,7 @@ pub(super) struct Wedge {
 
 /// The piece.
 #[derive(Clone, Debug)]
-pub(super) struct Sheet {
+pub(super) struct AlteredPiece {
     pub(super) unit: Unit,
     pub(super) piece: String,
     pub(super) at: Spot,
@@ -45,7 +45,7 @@ pub(super) struct Sheet {
     pub(super) edges: Vec<Path>,
     pub(super) fold: Option<usize>,
     /// In the order of [`each_mark`].
-    pub(super) marks: Vec<Option<Mark>>,
+    pub(super) marks: Vec<Option<EdgeMark>>,
     /// In the order of [`each_point`].
     pub(super) points: Vec<Vec2>,
     /// How many of them are the grain's.
@@ -144,7 +144,7 @@ pub(super) fn length_in(metres: f64, written: Option<Unit>, unit: Unit) -> Quant
     Quantity { number: rounded(metres / own.unwrap_or(unit).factor()), unit: own }
 }
 
-impl Sheet {
+impl AlteredPiece {
     /// Reads a piece of the file.
     pub(super) fn read(file: &GarmentFile, index: usize) -> Result<Self, Fault> {
         let (unit, mut piece) = (file.unit(), file.pieces[index].clone());
@@ -165,13 +165,13 @@ impl Sheet {
             return Err((at, Problem::AlterShape { piece: name, reason: "its outline does not close".to_owned() }));
         }
         let fold = match piece.cut.as_ref().map(|c| &c.value) {
-            Some(Cut::Fold(edge)) => names.iter().position(|n| n == edge),
+            Some(CutKind::Fold(edge)) => names.iter().position(|n| n == edge),
             _ => None,
         };
         let mut marks = Vec::new();
         each_mark(&mut piece, |edge, at| {
             let edge = names.iter().position(|n| n == edge);
-            marks.push(edge.map(|edge| Mark { edge, at: position(*at, edges[edge].length(), unit) }));
+            marks.push(edge.map(|edge| EdgeMark { edge, at: position(*at, edges[edge].length(), unit) }));
         });
         let whole = |text: &Located<String>| {
             Path::parse_absolute(&text.value, unit.factor())
@@ -209,7 +209,7 @@ impl Sheet {
 
     /// Finds the fold of a piece that is on the fold because another one is, which it is like.
     pub(super) fn fold_by_like(&mut self, file: &GarmentFile, index: usize) {
-        if let (Cut::Fold(edge), _) = cut_of(file, index) {
+        if let (CutKind::Fold(edge), _) = cut_of(file, index) {
             self.fold = self.names.iter().position(|n| *n == edge);
         }
     }
@@ -306,7 +306,7 @@ impl Sheet {
     }
 
     /// Darts on edges, with their mouths and tips.
-    pub(super) fn wedges(&self, piece: &PieceFile) -> Vec<Wedge> {
+    pub(super) fn wedges(&self, piece: &PieceFile) -> Vec<EdgeDart> {
         let mut found = Vec::new();
         for (dart, written) in piece.darts.iter().enumerate() {
             let DartShape::Edge { edge, at, length, tip } = &written.shape else { continue };
@@ -320,7 +320,7 @@ impl Sheet {
             let deep = length.as_ref().map_or(0.0, |l| l.value.value(self.unit));
             let square = (one + other) / 2.0 + Vec2::new(-across.y, across.x) * deep;
             let tip = tip.as_ref().map_or(square, |t| Vec2::from(t.value) * self.unit.factor());
-            found.push(Wedge { dart, edge, mouth, tip });
+            found.push(EdgeDart { dart, edge, mouth, tip });
         }
         found
     }

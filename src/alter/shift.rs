@@ -1,9 +1,9 @@
 //! Points of an edge moved: a seam taken in or let out, a neckline lowered.
 
-use super::sheet::Sheet;
+use super::sheet::AlteredPiece;
 use super::{Fault, name};
 use crate::geometry::{Path, Shift, Vec2};
-use crate::pattern::{Cut, GarmentFile, Located, PieceFile, Problem, Quantity, SeamFile, Side, StationFile, Words};
+use crate::pattern::{CutKind, GarmentFile, Located, PieceFile, Problem, Quantity, SeamFile, Side, StationFile, Words};
 
 /// Positions nearer to each other than this are one, metres.
 const SAME: f64 = 1e-7;
@@ -32,14 +32,14 @@ pub(super) fn take(
         }
         stations.push((sheet.place(edge, place)?, if out { -by } else { by }));
     }
-    let sewn = Sewn::new(&sheet, &file.pieces[index], edge);
+    let sewn = SewnEdge::new(&sheet, &file.pieces[index], edge);
     let shares: Vec<(f64, f64)> = stations.iter().map(|&(s, by)| (sewn.share(s), by)).collect();
     inwards(&mut sheet, edge, &stations)?;
     sheet.write(file, index)?;
     let Some(to) = to else { return Ok(()) };
     let (other, mut sheet, edge) = name::edge(file, &to, true)?;
     let against = !same_way(&file.pieces[index], &sew, &file.pieces[other], &to, seam_face_same(file, seam));
-    let sewn = Sewn::new(&sheet, &file.pieces[other], edge);
+    let sewn = SewnEdge::new(&sheet, &file.pieces[other], edge);
     let place = |&(share, by): &(f64, f64)| (sewn.place(if against { 1.0 - share } else { share }), by);
     let stations: Vec<(f64, f64)> = shares.iter().map(place).collect();
     inwards(&mut sheet, edge, &stations)?;
@@ -104,20 +104,20 @@ pub(super) fn same_way(
     // Where only one says its side, the other is on it as well.
     let common = sides[0].or(sides[1]).unwrap_or(Side::Left);
     let mirrored = |piece: &PieceFile, side: Option<Side>| {
-        let halves = matches!(piece.cut.as_ref().map(|c| &c.value), Some(Cut::Pair | Cut::Fold(_)));
+        let halves = matches!(piece.cut.as_ref().map(|c| &c.value), Some(CutKind::Pair | CutKind::Fold(_)));
         halves && side.unwrap_or(common) != piece.drawn.as_ref().map_or(Side::Left, |d| d.value)
     };
     (mirrored(one, sides[0]) != mirrored(other, sides[1])) != face_same
 }
 
 /// An edge without the mouths of its darts.
-struct Sewn {
+struct SewnEdge {
     length: f64,
     mouths: Vec<[f64; 2]>,
 }
 
-impl Sewn {
-    fn new(sheet: &Sheet, piece: &PieceFile, edge: usize) -> Self {
+impl SewnEdge {
+    fn new(sheet: &AlteredPiece, piece: &PieceFile, edge: usize) -> Self {
         let of_edge = sheet.wedges(piece).into_iter().filter(|w| w.edge == edge);
         let mut mouths: Vec<[f64; 2]> = of_edge.map(|w| w.mouth).collect();
         mouths.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -146,7 +146,7 @@ impl Sewn {
 }
 
 /// Moves an edge square to its chord, towards the cloth where the amount is positive.
-fn inwards(sheet: &mut Sheet, edge: usize, stations: &[(f64, f64)]) -> Result<(), Fault> {
+fn inwards(sheet: &mut AlteredPiece, edge: usize, stations: &[(f64, f64)]) -> Result<(), Fault> {
     let chord = sheet.edges[edge].end() - sheet.edges[edge].start();
     let Some(along) = chord.try_normalize(SAME) else {
         let reason = format!("edge '{}' is closed and has no chord to be moved square to", sheet.names[edge]);
@@ -159,8 +159,8 @@ fn inwards(sheet: &mut Sheet, edge: usize, stations: &[(f64, f64)]) -> Result<()
 
 /// Shifts points of an edge. Between them the shift goes over smoothly, and at ends that are not named it is zero.
 /// The neighbours follow an end that moves: straight edges stay straight, curves are eased over their length.
-fn shift_edge(sheet: &mut Sheet, edge: usize, mut knots: Vec<(f64, Vec2)>) -> Result<(), Fault> {
-    let fold_kept = |sheet: &Sheet, reason: &str| {
+fn shift_edge(sheet: &mut AlteredPiece, edge: usize, mut knots: Vec<(f64, Vec2)>) -> Result<(), Fault> {
+    let fold_kept = |sheet: &AlteredPiece, reason: &str| {
         let (piece, edge) = (sheet.piece.clone(), sheet.fold.map_or_else(String::new, |f| sheet.names[f].clone()));
         (sheet.at, Problem::AlterFold { piece, edge, reason: reason.to_owned() })
     };
@@ -189,21 +189,21 @@ fn shift_edge(sheet: &mut Sheet, edge: usize, mut knots: Vec<(f64, Vec2)>) -> Re
             return Err((sheet.at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
         }
     }
-    apply(sheet, edge, &Field::new(&sheet.edges[edge], knots));
+    apply(sheet, edge, &EdgeShift::new(&sheet.edges[edge], knots));
     if first.norm() > 0.0 {
         let path = &sheet.edges[before];
-        let field = Field::new(path, vec![(0.0, Vec2::zeros()), (path.length(), first)]);
+        let field = EdgeShift::new(path, vec![(0.0, Vec2::zeros()), (path.length(), first)]);
         apply(sheet, before, &field);
     }
     if last.norm() > 0.0 {
         let path = &sheet.edges[after];
-        let field = Field::new(path, vec![(0.0, last), (path.length(), Vec2::zeros())]);
+        let field = EdgeShift::new(path, vec![(0.0, last), (path.length(), Vec2::zeros())]);
         apply(sheet, after, &field);
     }
     Ok(())
 }
 
-fn apply(sheet: &mut Sheet, edge: usize, field: &Field) {
+fn apply(sheet: &mut AlteredPiece, edge: usize, field: &EdgeShift) {
     let marks = sheet.marks_on(edge);
     let knots: Vec<f64> = field.knots.iter().map(|k| k.0).collect();
     let (path, moved) = sheet.edges[edge].shifted(&knots, &marks, |s| field.at(s));
@@ -218,7 +218,7 @@ fn apply(sheet: &mut Sheet, edge: usize, field: &Field) {
 
 /// A shift along an edge: cubics between knots.
 #[derive(Clone, Debug)]
-pub(super) struct Field {
+pub(super) struct EdgeShift {
     /// Places along the edge, the first and the last at its ends, and the shifts there.
     pub(super) knots: Vec<(f64, Vec2)>,
     /// By knot, the change of the shift by length.
@@ -227,7 +227,7 @@ pub(super) struct Field {
     pub(super) linear: bool,
 }
 
-impl Field {
+impl EdgeShift {
     /// Cubics through their knots that do not overshoot.
     fn new(path: &Path, knots: Vec<(f64, Vec2)>) -> Self {
         let linear = knots.len() == 2 && path.is_straight();

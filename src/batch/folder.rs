@@ -4,15 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::BatchError;
-use super::job::{Job, stem};
-use crate::input::bytes;
+use super::job::BatchJob;
+use crate::input::{bytes, stem};
 use crate::io::garment::LARGEST_FILE;
 
 /// The garments of a folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Garments {
     /// A job each, sorted and named by their files.
-    pub jobs: Vec<Job>,
+    pub jobs: Vec<BatchJob>,
     /// YAML files that are no garment files, as those of fabrics, ranges and mannequins.
     pub left_out: Vec<PathBuf>,
 }
@@ -21,7 +21,7 @@ pub struct Garments {
 ///
 /// # Errors
 /// [`BatchError`]: a folder that cannot be read, or without garments.
-pub fn garments_of_folder(folder: &Path, defaults: &Job) -> Result<Garments, BatchError> {
+pub fn garments_of_folder(folder: &Path, defaults: &BatchJob) -> Result<Garments, BatchError> {
     let unreadable = |e: std::io::Error| BatchError::Read { file: folder.to_owned(), why: e.to_string() };
     let entries: Vec<fs::DirEntry> = fs::read_dir(folder).and_then(Iterator::collect).map_err(unreadable)?;
     let mut files: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).filter(|path| is_yaml(path)).collect();
@@ -33,7 +33,7 @@ pub fn garments_of_folder(folder: &Path, defaults: &Job) -> Result<Garments, Bat
     // a.yaml and a.yml would both be named a.
     let twice = |file: &Path| files.iter().filter(|other| stem(other) == stem(file)).count() > 1;
     let id = |file: &Path| if twice(file) { name(file) } else { stem(file) };
-    let jobs = files.iter().map(|file| Job::of_file(id(file), file.clone(), defaults)).collect();
+    let jobs = files.iter().map(|file| BatchJob::of_file(id(file), file.clone(), defaults)).collect();
     Ok(Garments { jobs, left_out })
 }
 

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
 
-use super::job::Job;
+use super::job::BatchJob;
 use super::key::{Digests, files_of};
 
 /// Folder of the input, in that of the failure.
@@ -30,7 +30,7 @@ pub(super) struct Input {
 ///
 /// # Errors
 /// A copy that cannot be written. An input that cannot be read is passed over.
-pub(super) fn keep_inputs(folder: &Path, job: &Job) -> io::Result<Vec<Input>> {
+pub(super) fn keep_inputs(folder: &Path, job: &BatchJob) -> io::Result<Vec<Input>> {
     let files = files_of(job);
     let plain: Vec<PathBuf> = files.iter().map(|file| without_steps_back(file)).collect();
     let (shared, digests) = (shared_folder(&plain), Digests::default());

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 
 use super::error::{BatchError, Mistake};
 use crate::fabric;
-use crate::input::{InputError, LengthUnit, bytes};
+use crate::input::{InputError, LengthUnit, bytes, is_file_name, stem, whole};
 use crate::io::garment::alterations_in;
 use crate::mannequin::{self, Measures};
 
@@ -19,7 +19,7 @@ const LONGEST_ID: usize = 300;
 
 /// One garment to make. Its paths can be opened as they are.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Job {
+pub struct BatchJob {
     /// Its name in the index.
     pub id: String,
     /// Garment files, the innermost first.
@@ -81,15 +81,14 @@ enum OneOrMany {
     Many(Vec<PathBuf>),
 }
 
-impl Job {
+impl BatchJob {
     /// A garment file with the options that jobs have which say nothing else.
-    pub(super) fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
+    pub(super) fn of_file(id: String, file: PathBuf, defaults: &BatchJob) -> Self {
         Self { id, garment: vec![file], ..defaults.clone() }.with_whole_paths()
     }
 
     /// The job with whole paths, so that its record tells where everything was.
     fn with_whole_paths(mut self) -> Self {
-        let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
         self.garment.iter_mut().for_each(|file| *file = whole(file));
         let named = [(&mut self.body, mannequin::library()), (&mut self.fabric, fabric::library())];
         for (name, shipped) in named {
@@ -140,7 +139,7 @@ impl Job {
 ///
 /// # Errors
 /// [`BatchError`], with every line that is no job.
-pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
+pub fn read_jobs(list: &Path, defaults: &BatchJob) -> Result<Vec<BatchJob>, BatchError> {
     let unreadable = |why: String| BatchError::Read { file: list.to_owned(), why };
     let bytes = bytes(list, LARGEST_LIST).map_err(|e: InputError| unreadable(e.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|e| unreadable(format!("it is no UTF-8 text: {e}")))?;
@@ -165,8 +164,8 @@ pub fn check_jobs<'t>(
     texts: impl Iterator<Item = (usize, &'t str)>,
     place: &str,
     folder: &Path,
-    defaults: &Job,
-) -> Result<Vec<Job>, Vec<Mistake>> {
+    defaults: &BatchJob,
+) -> Result<Vec<BatchJob>, Vec<Mistake>> {
     let (mut jobs, mut mistakes) = (Vec::new(), Vec::new());
     let mut first: HashMap<String, usize> = HashMap::new();
     for (line, text) in texts {
@@ -188,7 +187,7 @@ pub fn check_jobs<'t>(
 ///
 /// # Errors
 /// The mistake, in words.
-pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Result<Job, String> {
+pub fn parse_job(text: &str, folder: &Path, defaults: &BatchJob, mark: &str) -> Result<BatchJob, String> {
     // A list of values would be taken for those of the keys in their order.
     if text.trim_start().starts_with('[') {
         return Err("a job is an object such as {\"garment\": \"skirt.yaml\"}, not a list".into());
@@ -208,7 +207,7 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         return Err(format!("an id has 1 to {LONGEST_ID} visible characters"));
     }
     let at = |name: String, shipped: Vec<&str>| in_folder(folder, name, &shipped);
-    let job = Job {
+    let job = BatchJob {
         id,
         garment,
         // The unit is of the body beside it.
@@ -234,7 +233,7 @@ fn words(alteration: &Value) -> String {
 }
 
 /// The job, if its numbers and units make sense. Its files are left to the process that makes it.
-fn checked(job: Job) -> Result<Job, String> {
+fn checked(job: BatchJob) -> Result<BatchJob, String> {
     if let Some(unit) = job.body_units.as_ref().filter(|unit| LengthUnit::from_symbol(unit).is_none()) {
         let known: Vec<&str> = LengthUnit::ALL.iter().map(|unit| unit.symbol()).collect();
         return Err(format!("body_units: '{unit}' is no unit; known are {}", known.join(", ")));
@@ -256,18 +255,9 @@ fn checked(job: Job) -> Result<Job, String> {
     }
 }
 
-pub(super) fn stem(file: &Path) -> String {
-    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
-}
-
 /// A library name as it is, a file in `folder`.
 fn in_folder(folder: &Path, name: String, shipped: &[&str]) -> String {
     if is_file_name(&name, shipped) { folder.join(name).display().to_string() } else { name }
-}
-
-/// Whether a body or fabric is a file: no name of the library, and with an ending.
-fn is_file_name(name: &str, shipped: &[&str]) -> bool {
-    !shipped.contains(&name) && Path::new(name).extension().is_some()
 }
 
 /// The parser's message without its line, which is always the first.
@@ -287,8 +277,8 @@ mod tests {
         std::path::absolute("lists").expect("a folder")
     }
 
-    fn parse(text: &str) -> Result<Job, String> {
-        let defaults = Job { spacing: Some(25.0), body_units: Some("cm".into()), ..Job::options() };
+    fn parse(text: &str) -> Result<BatchJob, String> {
+        let defaults = BatchJob { spacing: Some(25.0), body_units: Some("cm".into()), ..BatchJob::options() };
         parse_job(text, &lists(), &defaults, "7")
     }
 
@@ -300,7 +290,7 @@ mod tests {
         let body = format!("--body={}", lists().join("anna.obj").display());
         assert_eq!(job.arguments(), [&body, "--fabric=denim", "--spacing=25"]);
         // Also where the folder is named from here.
-        let same = parse_job(r#"{"garment": "skirt.yaml"}"#, Path::new("lists"), &Job::options(), "7");
+        let same = parse_job(r#"{"garment": "skirt.yaml"}"#, Path::new("lists"), &BatchJob::options(), "7");
         assert_eq!(same.expect("a job").garment, job.garment);
     }
 

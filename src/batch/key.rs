@@ -8,9 +8,9 @@ use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 
-use super::job::{Job, stem};
+use super::job::BatchJob;
 use crate::fabric;
-use crate::input::{bytes, texts};
+use crate::input::{bytes, stem, texts};
 use crate::io::garment::LARGEST_FILE;
 use crate::mannequin;
 
@@ -25,9 +25,9 @@ const DEEPEST: usize = 4;
 /// The inputs of a job: the names and contents of its garment files and of all that they name, its body and
 /// fabric, its options, and toile's version. Folders are left out, so that a job keeps its key when it is moved.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Key(String);
+pub struct JobKey(String);
 
-impl fmt::Display for Key {
+impl fmt::Display for JobKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
@@ -66,9 +66,9 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().take(BYTES).map(|byte| format!("{byte:02x}")).collect()
 }
 
-impl Key {
+impl JobKey {
     /// The key of a job as its files are now.
-    pub fn of(job: &Job, digests: &Digests) -> Self {
+    pub fn of(job: &BatchJob, digests: &Digests) -> Self {
         let mut content = Content(Sha256::new());
         content.say("toile", env!("CARGO_PKG_VERSION"));
         for garment in &job.garment {
@@ -91,7 +91,7 @@ impl Key {
 }
 
 /// Files of a job that can be read, each once: its garments and all that they name, its body and its fabric.
-pub(super) fn files_of(job: &Job) -> Vec<PathBuf> {
+pub(super) fn files_of(job: &BatchJob) -> Vec<PathBuf> {
     let given = [&job.body, &job.fabric].into_iter().flatten().map(PathBuf::from).filter(|path| path.is_file());
     let mut files: Vec<PathBuf> = Vec::new();
     let mut next: Vec<PathBuf> = job.garment.iter().cloned().chain(given).collect();
@@ -139,7 +139,7 @@ impl Content {
 }
 
 /// The files that a file names, in their order. Any text that is the name of a file counts: a file too many does no
-/// harm. What a file is called does not tell whether it names others, but a surface is long and names none.
+/// harm. The name of a file does not tell whether it names others, but a surface is long and names none.
 fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         return Vec::new();

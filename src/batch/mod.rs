@@ -29,15 +29,17 @@ use serde::Serialize;
 
 pub use error::{BatchError, Mistake};
 pub use folder::{Garments, garments_of_folder};
-pub use job::{Job, check_jobs, parse_job, read_jobs};
-pub use key::{Digests, Key};
-pub use process::{Limits, PANICKED, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker};
-pub use sample::{Choice, list_text, sample};
-pub use store::{INDEX, Record, State, Store};
+pub use job::{BatchJob, check_jobs, parse_job, read_jobs};
+pub use key::{Digests, JobKey};
+pub use process::{
+    ASKED_TO_END, Limits, PANICKED, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker,
+};
+pub use sample::{SampleChoice, list_text, sample};
+pub use store::{INDEX, JobState, Record, Store};
 
 /// How jobs are made.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct BatchPlan {
     /// The program that makes one garment.
     pub worker: Worker,
     /// Limits of every job.
@@ -52,11 +54,11 @@ pub struct Plan {
 
 /// A job's line of the index.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
+pub struct IndexLine {
     /// The job's id.
     pub id: String,
     /// Whether there is a garment.
-    pub state: State,
+    pub state: JobState,
     /// Exit code of `toile make`: 0 or 1 of a job that is done. Absent if a limit or a signal ended it.
     pub exit: Option<i32>,
     /// Wall-clock time, s.
@@ -67,7 +69,7 @@ pub struct Line {
     pub error: Option<String>,
 }
 
-impl Line {
+impl IndexLine {
     fn new(id: &str, record: &Record) -> Self {
         Self {
             id: id.to_owned(),
@@ -86,7 +88,7 @@ pub enum Event<'a> {
     /// So many jobs of so many are known to be done or failed.
     Known(usize, usize),
     /// A job has ended.
-    Ended(&'a Line),
+    Ended(&'a IndexLine),
 }
 
 /// How a batch went.
@@ -111,17 +113,17 @@ pub struct Summary {
 /// [`BatchError`]: a store that cannot be written, a program that cannot be started, or a stop. Results until then
 /// are kept.
 pub fn run(
-    jobs: &[Job],
+    jobs: &[BatchJob],
     store: &Store,
-    plan: &Plan,
+    plan: &BatchPlan,
     stop: &(dyn Fn() -> bool + Sync),
     tell: &mut dyn FnMut(Event),
 ) -> Result<Summary, BatchError> {
     let digests = Digests::default();
-    let keys: Vec<Key> = jobs.par_iter().map(|job| Key::of(job, &digests)).collect();
-    let mut known: HashMap<&Key, Record> = HashMap::new();
+    let keys: Vec<JobKey> = jobs.par_iter().map(|job| JobKey::of(job, &digests)).collect();
+    let mut known: HashMap<&JobKey, Record> = HashMap::new();
     let mut left: Vec<usize> = Vec::new();
-    let mut asked_for: HashMap<&Key, Vec<usize>> = HashMap::new();
+    let mut asked_for: HashMap<&JobKey, Vec<usize>> = HashMap::new();
     for (k, key) in keys.iter().enumerate() {
         let same = asked_for.entry(key).or_default();
         same.push(k);
@@ -134,8 +136,8 @@ pub fn run(
         }
     }
     let before = keys.iter().filter(|key| known.contains_key(key)).count();
-    let lines = |known: &HashMap<&Key, Record>| -> Vec<Line> {
-        let record = |(job, key): (&Job, &Key)| known.get(key).map(|record| Line::new(&job.id, record));
+    let lines = |known: &HashMap<&JobKey, Record>| -> Vec<IndexLine> {
+        let record = |(job, key): (&BatchJob, &JobKey)| known.get(key).map(|record| IndexLine::new(&job.id, record));
         jobs.iter().zip(&keys).filter_map(record).collect()
     };
     store.write_index(&plan.index, &lines(&known))?;
@@ -143,7 +145,7 @@ pub fn run(
     let mut ended = before;
     let made = side_by_side(&left, jobs, &keys, store, plan, stop, &mut |k, record| {
         let same = &asked_for[&keys[k]];
-        let new: Vec<Line> = same.iter().map(|&k| Line::new(&jobs[k].id, &record)).collect();
+        let new: Vec<IndexLine> = same.iter().map(|&k| IndexLine::new(&jobs[k].id, &record)).collect();
         known.insert(&keys[k], record);
         store.append_index(&plan.index, &new)?;
         ended += new.len();
@@ -154,12 +156,12 @@ pub fn run(
     let lines = lines(&known);
     store.write_index(&plan.index, &lines)?;
     made?;
-    let done = lines.iter().filter(|line| line.state == State::Done);
+    let done = lines.iter().filter(|line| line.state == JobState::Done);
     Ok(Summary {
         jobs: jobs.len(),
         done: done.clone().count(),
         out_of_bounds: done.filter(|line| line.exit != Some(0)).count(),
-        failed: lines.iter().filter(|line| line.state == State::Failed).count(),
+        failed: lines.iter().filter(|line| line.state == JobState::Failed).count(),
         known_before: before,
     })
 }
@@ -168,23 +170,28 @@ pub fn run(
 ///
 /// # Errors
 /// As of [`run`].
-pub fn run_one(job: &Job, store: &Store, plan: &Plan, stop: &(dyn Fn() -> bool + Sync)) -> Result<Line, BatchError> {
-    let key = Key::of(job, &Digests::default());
+pub fn run_one(
+    job: &BatchJob,
+    store: &Store,
+    plan: &BatchPlan,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<IndexLine, BatchError> {
+    let key = JobKey::of(job, &Digests::default());
     let record = match store.record(&key, plan.retry) {
         Some(record) => record,
         None => process::make(job, &key, store, plan, stop)?,
     };
-    Ok(Line::new(&job.id, &record))
+    Ok(IndexLine::new(&job.id, &record))
 }
 
 /// Makes the jobs `left`, several at a time, and hands each outcome to `take` as it comes. After the first error no
 /// job is begun, and those under way are ended.
 fn side_by_side(
     left: &[usize],
-    jobs: &[Job],
-    keys: &[Key],
+    jobs: &[BatchJob],
+    keys: &[JobKey],
     store: &Store,
-    plan: &Plan,
+    plan: &BatchPlan,
     stop: &(dyn Fn() -> bool + Sync),
     take: &mut dyn FnMut(usize, Record) -> Result<(), BatchError>,
 ) -> Result<(), BatchError> {

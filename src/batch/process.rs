@@ -8,13 +8,14 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use super::Plan;
+use super::BatchPlan;
 use super::error::BatchError;
-use super::job::Job;
-use super::key::{Digests, Key};
-use super::store::{LOG, Record, State, Store};
+use super::job::BatchJob;
+use super::key::{Digests, JobKey};
+use super::store::{JobState, LOG, Record, Store};
 use crate::input::shown;
 use crate::io::files::abandon;
+use crate::io::result_names::{GARMENT_OBJ, REPORT_JSON};
 
 /// Exit codes of a worker are those of its command and this number. A worker that toile did not end, as a Python that
 /// does not find toile, has others.
@@ -25,8 +26,8 @@ pub const WORKER_CANNOT_WRITE: u8 = 74;
 pub const WORKER_NO_MEMORY: u8 = 75;
 /// Exit code of a Rust program that has panicked: a fault of toile, which one garment may have and another not.
 pub const PANICKED: u8 = 101;
-/// Exit code of a worker that is asked to end by a signal.
-const ASKED_TO_END: i32 = 130;
+/// Exit code of a program that is asked to end by a signal, as by Ctrl-C: 128 and the signal's number.
+pub const ASKED_TO_END: u8 = 130;
 /// Codes that a command ends with when there is a result, and when there is none.
 const MADE: [i32; 2] = [0, 1];
 const NOT_MADE: [i32; 2] = [2, 3];
@@ -37,7 +38,7 @@ const MESSAGE: usize = 2000;
 /// Bytes at the end of a log in which the error is looked for.
 const LOG_END: usize = 64 << 10;
 /// Files that every result has.
-const RESULTS: [&str; 2] = ["garment.obj", "report.json"];
+const RESULTS: [&str; 2] = [GARMENT_OBJ, REPORT_JSON];
 /// Messages with which Rust's and Python's programs end that get no memory.
 const NO_MEMORY: [&str; 2] = ["memory allocation of", "MemoryError"];
 /// A mebibyte, the unit of memory limits.
@@ -102,10 +103,10 @@ fn limit_memory(_: u64) -> Result<(), BatchError> {
 
 /// Makes a job and seals its folder in the store.
 pub(super) fn make(
-    job: &Job,
-    key: &Key,
+    job: &BatchJob,
+    key: &JobKey,
     store: &Store,
-    plan: &Plan,
+    plan: &BatchPlan,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Record, BatchError> {
     let folder = store.scratch();
@@ -115,18 +116,18 @@ pub(super) fn make(
     let end = wait(&mut child, begin, plan.limits.time, stop).map_err(|e| store.unwritable(e))?;
     let seconds = begin.elapsed().as_secs_f64();
     let (state, exit, error) = match end {
-        End::Stopped => return Err(BatchError::Stopped),
-        End::TimeUp(limit) => {
+        ProcessEnd::Stopped => return Err(BatchError::Stopped),
+        ProcessEnd::TimeUp(limit) => {
             let why = format!("not done after {} s, the time limit (--time)", limit.as_secs_f64());
-            (State::Failed, None, Some(why))
+            (JobState::Failed, None, Some(why))
         }
-        End::Exited(status) => judged(&folder, &status, store, plan)?,
+        ProcessEnd::Exited(status) => judged(&folder, &status, store, plan)?,
     };
     let mut record = Record { key: key.clone(), state, exit, seconds, error, kept: true };
-    if Key::of(job, &Digests::default()) != *key {
+    if JobKey::of(job, &Digests::default()) != *key {
         // Its folder would bear the name of another content.
         let why = "its input changed while it was made; start again to make it as it is now";
-        record = Record { state: State::Failed, exit: None, error: Some(why.into()), kept: false, ..record };
+        record = Record { state: JobState::Failed, exit: None, error: Some(why.into()), kept: false, ..record };
         fs::remove_dir_all(&folder).map_err(|e| store.unwritable(e))?;
         return Ok(record);
     }
@@ -139,43 +140,43 @@ fn judged(
     folder: &Path,
     status: &ExitStatus,
     store: &Store,
-    plan: &Plan,
-) -> Result<(State, Option<i32>, Option<String>), BatchError> {
+    plan: &BatchPlan,
+) -> Result<(JobState, Option<i32>, Option<String>), BatchError> {
     let log = log_end(&folder.join(LOG));
-    let Some(code) = status.code() else { return Ok((State::Failed, None, Some(failure(&log, status, plan)))) };
+    let Some(code) = status.code() else { return Ok((JobState::Failed, None, Some(failure(&log, status, plan)))) };
     if code == i32::from(WORKER_CANNOT_WRITE) {
         return Err(store.unwritable(message(&log).unwrap_or("it is full or protected")));
     }
     if code == i32::from(WORKER_NO_MEMORY) {
-        return Ok((State::Failed, None, Some(too_little_memory(plan))));
+        return Ok((JobState::Failed, None, Some(too_little_memory(plan))));
     }
     let exit = code - i32::from(WORKER_EXIT);
     if MADE.contains(&exit) {
         let missing = RESULTS.into_iter().find(|name| !folder.join(name).is_file());
         return Ok(match missing {
-            None => (State::Done, Some(exit), None),
+            None => (JobState::Done, Some(exit), None),
             Some(name) => {
-                (State::Failed, None, Some(format!("it ended without {name}, although it said that all is done")))
+                (JobState::Failed, None, Some(format!("it ended without {name}, although it said that all is done")))
             }
         });
     }
     let has_panicked = code == i32::from(PANICKED);
     if NOT_MADE.contains(&exit) || has_panicked {
         let exit = if has_panicked { None } else { Some(exit) };
-        return Ok((State::Failed, exit, Some(failure(&log, status, plan))));
+        return Ok((JobState::Failed, exit, Some(failure(&log, status, plan))));
     }
-    if code == ASKED_TO_END {
-        return Ok((State::Failed, None, Some("its process was asked to end by a signal".into())));
+    if code == i32::from(ASKED_TO_END) {
+        return Ok((JobState::Failed, None, Some("its process was asked to end by a signal".into())));
     }
     if plan.limits.memory.is_some() && no_memory(&log) {
-        return Ok((State::Failed, None, Some(too_little_memory(plan))));
+        return Ok((JobState::Failed, None, Some(too_little_memory(plan))));
     }
     let last = last_line(&log).unwrap_or("it said nothing").trim_start_matches("error: ");
     Err(BatchError::Worker { program: plan.worker.shown(), code, why: cut(last) })
 }
 
 /// Starts the process. Its output goes into the log.
-fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, BatchError> {
+fn start(job: &BatchJob, folder: &Path, store: &Store, plan: &BatchPlan) -> Result<Child, BatchError> {
     let Worker { program, threads } = &plan.worker;
     let log = File::create(folder.join(LOG)).map_err(|e| store.unwritable(e))?;
     let mut words = program.iter();
@@ -193,7 +194,7 @@ fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, 
     command.spawn().map_err(|source| BatchError::Start { program: plan.worker.shown(), source })
 }
 
-enum End {
+enum ProcessEnd {
     Exited(ExitStatus),
     TimeUp(Duration),
     Stopped,
@@ -204,10 +205,10 @@ fn wait(
     begin: Instant,
     limit: Option<Duration>,
     stop: &(dyn Fn() -> bool + Sync),
-) -> io::Result<End> {
+) -> io::Result<ProcessEnd> {
     loop {
         if let Some(status) = child.try_wait()? {
-            return Ok(End::Exited(status));
+            return Ok(ProcessEnd::Exited(status));
         }
         let late = limit.filter(|limit| begin.elapsed() > *limit);
         let stopped = stop();
@@ -215,7 +216,7 @@ fn wait(
             // It may have ended meanwhile.
             let _ = child.kill();
             child.wait()?;
-            return Ok(late.filter(|_| !stopped).map_or(End::Stopped, End::TimeUp));
+            return Ok(late.filter(|_| !stopped).map_or(ProcessEnd::Stopped, ProcessEnd::TimeUp));
         }
         std::thread::sleep(LOOK);
     }
@@ -249,7 +250,7 @@ fn no_memory(log: &str) -> bool {
     NO_MEMORY.iter().any(|words| log.contains(words))
 }
 
-fn too_little_memory(plan: &Plan) -> String {
+fn too_little_memory(plan: &BatchPlan) -> String {
     plan.limits.memory.map_or_else(
         || "the system has no memory left; run fewer side by side (--jobs)".into(),
         |mib| format!("it needs more than {mib} MiB, the memory limit (--memory)"),
@@ -257,7 +258,7 @@ fn too_little_memory(plan: &Plan) -> String {
 }
 
 /// Why a worker ended without a garment. A worker that the system ends has said only notes, which are no reason.
-fn failure(log: &str, status: &ExitStatus, plan: &Plan) -> String {
+fn failure(log: &str, status: &ExitStatus, plan: &BatchPlan) -> String {
     if status.code().is_none() && no_memory(log) {
         return too_little_memory(plan);
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::error::BatchError;
-use super::job::Job;
+use super::job::BatchJob;
 use crate::io::files::relative;
 use crate::io::garment::{Drawn, Ranges};
 use crate::mannequin::MannequinSpec;
@@ -14,7 +14,7 @@ const MOST_SAMPLES: usize = 1_000_000;
 
 /// The garments, bodies, fabrics and ranges that jobs are drawn from.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct SampleChoice {
     /// Garment files, each with a size of it or as it is drawn.
     pub garments: Vec<(PathBuf, Option<String>)>,
     /// Names or files of bodies.
@@ -31,8 +31,8 @@ pub struct Choice {
 ///
 /// # Errors
 /// [`BatchError::Samples`] when there are not so many.
-pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result<Vec<Job>, BatchError> {
-    let Choice { garments, bodies, fabrics, ranges } = choice;
+pub fn sample(choice: &SampleChoice, count: usize, seed: u64, options: &BatchJob) -> Result<Vec<BatchJob>, BatchError> {
+    let SampleChoice { garments, bodies, fabrics, ranges } = choice;
     if count > MOST_SAMPLES {
         return Err(BatchError::TooManySamples { asked: count, most: MOST_SAMPLES });
     }
@@ -46,9 +46,9 @@ pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result
     let job = |(n, k): (usize, usize)| {
         let (garment, size) = &garments[k / (bodies.len() * fabrics.len())];
         let body = k / fabrics.len() % bodies.len();
-        let mut random = Random::of(seed, n as u64);
+        let mut random = SplitMix64::of(seed, n as u64);
         let Drawn { measures, alter } = ranges.draw(|name| specs[body].as_ref()?.measure(name), || random.share());
-        Job {
+        BatchJob {
             id: format!("{n:0width$}"),
             garment: vec![garment.clone()],
             size: size.clone().or_else(|| options.size.clone()),
@@ -67,7 +67,7 @@ fn rounds(all: usize, count: usize, seed: u64) -> impl Iterator<Item = usize> {
     let round = move |k: usize| {
         let left = (count - k * all).min(all);
         // The first order is that of a list without ranges.
-        let seed = if k == 0 { seed } else { Random::of(seed, u64::MAX - k as u64).next() };
+        let seed = if k == 0 { seed } else { SplitMix64::of(seed, u64::MAX - k as u64).next() };
         shuffled(all, left, seed)
     };
     (0..count.div_ceil(all.max(1))).flat_map(round)
@@ -76,7 +76,7 @@ fn rounds(all: usize, count: usize, seed: u64) -> impl Iterator<Item = usize> {
 /// The first `count` of the numbers below `all` in random order: Fisher and Yates's shuffle, of which only the numbers
 /// that have moved are kept.
 fn shuffled(all: usize, count: usize, seed: u64) -> Vec<usize> {
-    let mut random = Random(seed);
+    let mut random = SplitMix64(seed);
     let mut moved: HashMap<usize, usize> = HashMap::new();
     let mut drawn = Vec::with_capacity(count);
     for k in 0..count {
@@ -88,9 +88,9 @@ fn shuffled(all: usize, count: usize, seed: u64) -> Vec<usize> {
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every machine and in every version.
-struct Random(u64);
+struct SplitMix64(u64);
 
-impl Random {
+impl SplitMix64 {
     /// A generator of its own for the `n`th job of a seed.
     fn of(seed: u64, n: u64) -> Self {
         Self(Self(seed).next() ^ Self(n).next())
@@ -116,16 +116,16 @@ impl Random {
 }
 
 /// The jobs as a list in `folder`: one JSON object a line, files named from there.
-pub fn list_text(jobs: &[Job], folder: &Path) -> String {
+pub fn list_text(jobs: &[BatchJob], folder: &Path) -> String {
     let from_there = |file: &Path| relative(file, folder).unwrap_or_else(|| file.to_owned());
     let named = |name: &String| {
         let file = Path::new(name);
         if file.is_file() { from_there(file).display().to_string() } else { name.clone() }
     };
-    let line = |job: &Job| {
+    let line = |job: &BatchJob| {
         let garment = job.garment.iter().map(|file| from_there(file)).collect();
         let (body, fabric) = (job.body.as_ref().map(named), job.fabric.as_ref().map(named));
-        let job = Job { garment, body, fabric, ..job.clone() };
+        let job = BatchJob { garment, body, fabric, ..job.clone() };
         serde_json::to_string(&job).unwrap_or_default() + "\n"
     };
     jobs.iter().map(line).collect()
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn the_generator_is_the_published_one() {
-        let mut random = Random(1_234_567);
+        let mut random = SplitMix64(1_234_567);
         assert_eq!([random.next(), random.next()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
     }
 
@@ -164,10 +164,10 @@ mod tests {
 
     #[test]
     fn shares_fill_the_range_and_differ_from_job_to_job() {
-        let shares: Vec<f64> = (1..1000).map(|n| Random::of(7, n).share()).collect();
+        let shares: Vec<f64> = (1..1000).map(|n| SplitMix64::of(7, n).share()).collect();
         let mean = shares.iter().sum::<f64>() / 999.0;
         assert!((mean - 0.5).abs() < 0.03 && shares.iter().all(|s| (0.0..1.0).contains(s)), "{mean}");
-        assert_ne!(shares[..5], (1..6).map(|n| Random::of(8, n).share()).collect::<Vec<_>>());
+        assert_ne!(shares[..5], (1..6).map(|n| SplitMix64::of(8, n).share()).collect::<Vec<_>>());
     }
 
     #[test]

@@ -15,11 +15,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use super::Line;
+use super::IndexLine;
 use super::error::BatchError;
 use super::inputs::{Input, keep_inputs};
-use super::job::Job;
-use super::key::Key;
+use super::job::BatchJob;
+use super::key::JobKey;
 use crate::io::files::write_all;
 
 /// The index.
@@ -38,7 +38,7 @@ const LOCK: &str = "lock";
 /// Whether there is a garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum State {
+pub enum JobState {
     /// It was made, within its bounds or not.
     Done,
     /// It was not.
@@ -49,9 +49,9 @@ pub enum State {
 #[derive(Clone, Debug)]
 pub struct Record {
     /// Its folder's name.
-    pub key: Key,
+    pub key: JobKey,
     /// Whether there is a garment.
-    pub state: State,
+    pub state: JobState,
     /// Exit code of `toile make`.
     pub exit: Option<i32>,
     /// Wall-clock time, s.
@@ -64,10 +64,10 @@ pub struct Record {
 
 /// The record as it is written.
 #[derive(Serialize, Deserialize)]
-struct Written {
+struct WrittenRecord {
     toile: String,
     key: String,
-    state: State,
+    state: JobState,
     exit: Option<i32>,
     seconds: f64,
     error: Option<String>,
@@ -80,10 +80,10 @@ struct Written {
 }
 
 /// A job's folder from the store.
-pub(super) fn folder_name(state: State, key: &Key) -> String {
+pub(super) fn folder_name(state: JobState, key: &JobKey) -> String {
     match state {
-        State::Done => key.to_string(),
-        State::Failed => format!("{FAILED}/{key}"),
+        JobState::Done => key.to_string(),
+        JobState::Failed => format!("{FAILED}/{key}"),
     }
 }
 
@@ -122,19 +122,19 @@ impl Store {
     }
 
     /// The record of a job. A failure that is to be tried again has none.
-    pub fn record(&self, key: &Key, retry: bool) -> Option<Record> {
-        let done = self.read_record(State::Done, key);
-        done.or_else(|| self.read_record(State::Failed, key).filter(|_| !retry))
+    pub fn record(&self, key: &JobKey, retry: bool) -> Option<Record> {
+        let done = self.read_record(JobState::Done, key);
+        done.or_else(|| self.read_record(JobState::Failed, key).filter(|_| !retry))
     }
 
-    fn read_record(&self, state: State, key: &Key) -> Option<Record> {
+    fn read_record(&self, state: JobState, key: &JobKey) -> Option<Record> {
         let text = fs::read_to_string(self.folder(state, key).join(RECORD)).ok()?;
-        let written: Written = serde_json::from_str(&text).ok()?;
-        let Written { exit, seconds, error, .. } = written;
+        let written: WrittenRecord = serde_json::from_str(&text).ok()?;
+        let WrittenRecord { exit, seconds, error, .. } = written;
         (written.state == state).then(|| Record { key: key.clone(), state, exit, seconds, error, kept: true })
     }
 
-    fn folder(&self, state: State, key: &Key) -> PathBuf {
+    fn folder(&self, state: JobState, key: &JobKey) -> PathBuf {
         self.root.join(folder_name(state, key))
     }
 
@@ -145,16 +145,16 @@ impl Store {
 
     /// Puts a job's folder in its place: complete with its record, by one rename. If another process was first, its
     /// result stays, which is the same.
-    pub(super) fn seal(&self, folder: &Path, job: &Job, record: &Record) -> Result<(), BatchError> {
+    pub(super) fn seal(&self, folder: &Path, job: &BatchJob, record: &Record) -> Result<(), BatchError> {
         let target = self.folder(record.state, &record.key);
         let failed = |e: io::Error| fault(&target, e);
         let mut inputs = Vec::new();
-        if record.state == State::Failed {
+        if record.state == JobState::Failed {
             inputs = keep_inputs(folder, job).map_err(failed)?;
             fs::create_dir_all(self.root.join(FAILED)).map_err(failed)?;
         }
         name_places(folder, &target).map_err(failed)?;
-        let written = Written {
+        let written = WrittenRecord {
             toile: env!("CARGO_PKG_VERSION").to_owned(),
             key: record.key.to_string(),
             state: record.state,
@@ -167,7 +167,7 @@ impl Store {
         let text = serde_json::to_vec_pretty(&written).map_err(|e| failed(e.into()))?;
         fs::write(folder.join(RECORD), text).map_err(failed)?;
         // What lies there is of an attempt before, or broken, unless another process has just been first.
-        let first = record.state == State::Done && self.read_record(State::Done, &record.key).is_some();
+        let first = record.state == JobState::Done && self.read_record(JobState::Done, &record.key).is_some();
         if first {
             return fs::remove_dir_all(folder).map_err(failed);
         }
@@ -175,8 +175,8 @@ impl Store {
             fs::rename(&target, self.scratch()).map_err(failed)?;
         }
         fs::rename(folder, &target).map_err(failed)?;
-        if record.state == State::Done {
-            remove(&self.folder(State::Failed, &record.key)).map_err(failed)?;
+        if record.state == JobState::Done {
+            remove(&self.folder(JobState::Failed, &record.key)).map_err(failed)?;
         }
         Ok(())
     }
@@ -185,7 +185,7 @@ impl Store {
     ///
     /// # Errors
     /// [`BatchError::Store`].
-    pub(super) fn write_index(&self, name: &str, lines: &[Line]) -> Result<(), BatchError> {
+    pub(super) fn write_index(&self, name: &str, lines: &[IndexLine]) -> Result<(), BatchError> {
         let path = self.root.join(name);
         let text = index_text(lines);
         write_all(&[(path.clone(), text)], &[]).map_err(|e| fault(&path, e))
@@ -195,7 +195,7 @@ impl Store {
     ///
     /// # Errors
     /// [`BatchError::Store`].
-    pub(super) fn append_index(&self, name: &str, lines: &[Line]) -> Result<(), BatchError> {
+    pub(super) fn append_index(&self, name: &str, lines: &[IndexLine]) -> Result<(), BatchError> {
         let path = self.root.join(name);
         let opened = OpenOptions::new().append(true).create(true).open(&path);
         opened.and_then(|mut file| file.write_all(&index_text(lines))).map_err(|e| fault(&path, e))
@@ -228,8 +228,8 @@ fn fault(path: &Path, why: impl Display) -> BatchError {
     BatchError::Store { path: path.to_owned(), why: why.to_string() }
 }
 
-fn index_text(lines: &[Line]) -> Vec<u8> {
-    let text = |line: &Line| serde_json::to_string(line).unwrap_or_default() + "\n";
+fn index_text(lines: &[IndexLine]) -> Vec<u8> {
+    let text = |line: &IndexLine| serde_json::to_string(line).unwrap_or_default() + "\n";
     lines.iter().map(text).collect::<String>().into_bytes()
 }
 

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::AlterArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::AlterArgs;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::{Changed, change};
@@ -15,14 +15,14 @@ use crate::report::aligned;
 
 /// The file that was written. Lengths are mm.
 #[derive(Serialize)]
-struct Written {
+struct AlterSummary {
     file: String,
-    edges: Vec<Row>,
+    edges: Vec<ChangedEdge>,
 }
 
 /// An edge that changed its length.
 #[derive(Serialize)]
-struct Row {
+struct ChangedEdge {
     edge: String,
     before: f64,
     after: f64,
@@ -38,7 +38,7 @@ pub(super) fn alter(args: &AlterArgs, console: &Console) -> Result<Exit, CliErro
     if !changed.in_place {
         note_written_anew(&args.output, &args.garment, console);
     }
-    let written = Written::new(shown, &changed);
+    let written = AlterSummary::new(shown, &changed);
     console.results(&written, || written.text())?;
     match &changed.refused {
         None => Ok(Exit::Done),
@@ -54,9 +54,9 @@ pub(super) fn note_written_anew(new: &Path, old: &Path, console: &Console) {
     console.note(&format!("{} is written anew, without the comments of {}", new.display(), old.display()));
 }
 
-impl Written {
+impl AlterSummary {
     fn new(file: String, changed: &Changed) -> Self {
-        let row = |e: &crate::io::garment::EdgeChange| Row {
+        let row = |e: &crate::io::garment::EdgeChange| ChangedEdge {
             edge: e.edge.clone(),
             before: e.before * MM,
             after: e.after * MM,

@@ -3,11 +3,12 @@
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
 
-use super::batch_args::{BatchArgs, Part};
+use super::batch_args::{BatchArgs, BatchPart};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::batch::{
-    Event, Garments, INDEX, Job, Limits, Line, Plan, State, Store, Summary, Worker, garments_of_folder, read_jobs, run,
+    BatchJob, BatchPlan, Event, Garments, INDEX, IndexLine, JobState, Limits, Store, Summary, Worker,
+    garments_of_folder, read_jobs, run,
 };
 use crate::io::files::stop_on_interrupt;
 
@@ -30,7 +31,7 @@ pub(super) fn batch(
     let (jobs, index) = part(jobs, args.part);
     let store = Store::open(&args.output)?;
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let plan = Plan {
+    let plan = BatchPlan {
         worker: Worker { program: itself.to_vec(), threads: threads.unwrap_or(NonZeroUsize::MIN) },
         limits: Limits { time: args.time.0, memory: args.memory },
         side_by_side: args.side_by_side.unwrap_or_else(cores),
@@ -41,7 +42,7 @@ pub(super) fn batch(
     let bars = console.progress();
     let summary = run(&jobs, &store, &plan, &stop, &mut |event| match event {
         Event::Known(known, all) => bars.show("batch", known as f64 / all as f64),
-        Event::Ended(line) if line.state == State::Failed => console.note(&failed(line)),
+        Event::Ended(line) if line.state == JobState::Failed => console.note(&failed(line)),
         Event::Ended(_) => {}
     })?;
     console.results(&summary, || said(&summary, &store.index(&plan.index).display().to_string()))?;
@@ -49,7 +50,7 @@ pub(super) fn batch(
 }
 
 /// The jobs of a folder. Says what of it is left out.
-pub(super) fn told(found: Garments, console: &Console) -> Vec<Job> {
+pub(super) fn told(found: Garments, console: &Console) -> Vec<BatchJob> {
     let names: Vec<String> = found.left_out.iter().map(|file| file.display().to_string()).collect();
     if !names.is_empty() {
         let names = crate::input::shown(&names.join(", "), REASON);
@@ -59,13 +60,13 @@ pub(super) fn told(found: Garments, console: &Console) -> Vec<Job> {
 }
 
 /// Every `of`th job, and the index for them.
-fn part(jobs: Vec<Job>, part: Option<Part>) -> (Vec<Job>, String) {
-    let Some(Part { number, of }) = part else { return (jobs, INDEX.to_owned()) };
+fn part(jobs: Vec<BatchJob>, part: Option<BatchPart>) -> (Vec<BatchJob>, String) {
+    let Some(BatchPart { number, of }) = part else { return (jobs, INDEX.to_owned()) };
     let jobs = jobs.into_iter().skip(number - 1).step_by(of).collect();
     (jobs, format!("index.{number}-of-{of}.jsonl"))
 }
 
-fn failed(line: &Line) -> String {
+fn failed(line: &IndexLine) -> String {
     let why = line.error.as_deref().unwrap_or_default();
     let first = why.lines().next().unwrap_or_default();
     format!("{} failed: {}", line.id, crate::input::shown(first, REASON))

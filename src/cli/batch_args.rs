@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::args::{OverrideArgs, spacing};
+use super::arg_values::spacing;
+use super::garment_args::OverrideArgs;
 
 /// Arguments of `batch`.
 #[derive(Debug, clap::Args)]
@@ -29,7 +30,7 @@ pub(super) struct BatchArgs {
     pub(super) retry: bool,
     /// Make only every Nth job, beginning with the Kth, for arrays of a cluster; its index is index.K-of-N.jsonl
     #[arg(long, value_name = "K/N", value_parser = part)]
-    pub(super) part: Option<Part>,
+    pub(super) part: Option<BatchPart>,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
 }
@@ -40,7 +41,7 @@ pub(super) struct TimeLimit(pub(super) Option<Duration>);
 
 /// `--part`
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct BatchPart {
     /// From 1.
     pub(super) number: usize,
     pub(super) of: usize,
@@ -66,10 +67,10 @@ fn mebibytes(text: &str) -> Result<u64, String> {
     some.ok_or_else(|| "a size is expected, such as 512M or 4G".into())
 }
 
-fn part(text: &str) -> Result<Part, String> {
+fn part(text: &str) -> Result<BatchPart, String> {
     let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
     match numbers {
-        Some((number, of)) if (1..=of).contains(&number) => Ok(Part { number, of }),
+        Some((number, of)) if (1..=of).contains(&number) => Ok(BatchPart { number, of }),
         _ => Err("a part such as 3/100 is expected: the third of a hundred".into()),
     }
 }

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::CheckArgs;
 use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::CheckArgs;
 use super::make::borrowed;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};
-use crate::io::garment::Refused;
+use crate::io::garment::{Refused, Variant};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, outfit, walk};
 use crate::pipeline::{self, Checked, PipelineError, StartPicture, StartShown, start_picture};
 use crate::report::aligned;
@@ -35,7 +35,7 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
         let checked = match check_sizes(file, args) {
             Err(refused) if console.json() => {
                 let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
-                let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
+                let refusal = CheckFindings { file: file.display().to_string(), ok: false, diagnostics: rows };
                 console.results(&refusal, String::new)?;
                 return Ok(Exit::Input);
             }
@@ -46,7 +46,7 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
     }
     let garment = outfit(worn.iter().map(|w| w.loaded.garment.clone()).collect());
     let warnings: Vec<Diagnostic> = worn.iter().flat_map(|w| w.loaded.warnings.clone()).collect();
-    let mut summary = Summary::new(&garment, &warnings);
+    let mut summary = CheckSummary::new(&garment, &warnings);
     if let Some(picture) = &args.picture {
         let StartPicture { png, shown, .. } = start_picture(&worn)?;
         write_all(&[(picture.clone(), png)], &inputs)?;
@@ -58,9 +58,9 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
 
 /// The garment as asked for. Where no size is, every size is checked as well.
 fn check_sizes(file: &Path, args: &CheckArgs) -> Result<Checked, Refused> {
-    let checked = pipeline::check_size(file, args.size.as_deref(), args.spacing)?;
+    let checked = pipeline::check_variant(file, Variant::of_size(args.size.as_deref()), args.spacing)?;
     for size in &checked.loaded.file.sizes {
-        pipeline::check_size(file, Some(&size.name.value), args.spacing)?;
+        pipeline::check_variant(file, Variant::of_size(Some(&size.name.value)), args.spacing)?;
     }
     Ok(checked)
 }
@@ -83,7 +83,7 @@ struct StartRow {
 
 /// The faults of a garment file.
 #[derive(Serialize)]
-struct Findings {
+struct CheckFindings {
     file: String,
     ok: bool,
     diagnostics: Vec<DiagnosticRow>,
@@ -110,7 +110,7 @@ impl DiagnosticRow {
 
 /// The pieces, seams and openings of a garment file without faults. Lengths are mm, areas mm².
 #[derive(Serialize)]
-struct Summary {
+struct CheckSummary {
     garment: String,
     title: String,
     ok: bool,
@@ -152,7 +152,7 @@ struct OpeningRow {
     length: f64,
 }
 
-impl Summary {
+impl CheckSummary {
     fn new(garment: &Garment, warnings: &[Diagnostic]) -> Self {
         let piece = |p: &crate::pattern::Piece| PieceRow {
             name: p.name.clone(),

@@ -2,19 +2,20 @@
 
 use serde::Serialize;
 
-use super::args::{CheckArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::CheckArgs;
 use crate::pipeline::judge;
-use crate::report::{Contact, Crossing, contact_lines};
+use crate::report::{ContactReport, Crossing, contact_lines};
 
 /// The findings, as JSON.
 #[derive(Serialize)]
-struct Found {
+struct MeshFindings {
     file: String,
     triangles: usize,
     ok: bool,
-    contact: Contact,
+    contact: ContactReport,
     crossings: Vec<Crossing>,
 }
 
@@ -24,8 +25,8 @@ pub(super) fn check_mesh(mesh: &std::path::Path, args: &CheckArgs, console: &Con
     let judged = judge(mesh, unit, args.body.as_deref().map(|name| (name, body_unit)))?;
     judged.notes.iter().for_each(|note| console.note(note));
     let contact = judged.seen.contact;
-    let ok = contact == Contact::default();
-    let found = Found {
+    let ok = contact == ContactReport::default();
+    let found = MeshFindings {
         file: mesh.display().to_string(),
         triangles: judged.triangles,
         ok,

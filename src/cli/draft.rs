@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::{DraftArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::flatten_args::DraftArgs;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{Drafted, DraftedEase, DraftedPiece, draft as drafted};
 use crate::report::aligned;
 
 /// The file that was written.
 #[derive(Serialize)]
-struct Written<'a> {
+struct DraftSummary<'a> {
     file: String,
     pieces: &'a [DraftedPiece],
     ease: &'a [DraftedEase],
@@ -30,7 +31,7 @@ pub(super) fn draft(args: &DraftArgs, console: &Console) -> Result<Exit, CliErro
     made.notes.iter().for_each(|note| console.note(note));
     write_all(&[(args.output.clone(), made.text.clone().into_bytes())], &inputs)?;
     let file = args.output.display().to_string();
-    let written = Written { file, pieces: &made.pieces, ease: &made.ease, darts: made.darts };
+    let written = DraftSummary { file, pieces: &made.pieces, ease: &made.ease, darts: made.darts };
     console.results(&written, || told(&made, &written.file))?;
     Ok(Exit::Done)
 }

@@ -28,7 +28,7 @@ pub(super) enum Exit {
     /// A worker of a batch does not get the memory to begin with.
     NoMemory = crate::batch::WORKER_NO_MEMORY as isize,
     /// Stopped by Ctrl-C.
-    Stopped = 130,
+    Stopped = crate::batch::ASKED_TO_END as isize,
 }
 
 /// Why a command was not done.

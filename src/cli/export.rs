@@ -1,23 +1,20 @@
 //! `export`: patterns for cutting.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
+use super::drawn::{DrawnGarment, narrowed};
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
+use super::paper_args::{ExportArgs, ExportCommand, PageArg};
 use super::plan::plan;
-use crate::cutting::{
-    DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled, sewing_order,
-};
+use crate::cutting::{CuttingOptions, Label, Layout, MarkKind, Paper, SewKind, Sheet, labelled, sewing_order};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
-use crate::io::garment::Loaded;
 use crate::io::pdf_write::{Page, booklet, one_page, unprintable};
 use crate::io::svg_write::cutting_svg;
-use crate::pattern::{Drawing, drawings};
-use crate::pipeline::{Overrides, inputs, read_size};
+use crate::pipeline::{Overrides, inputs};
 use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
@@ -29,12 +26,12 @@ const MOST_LETTERS: usize = 60;
 pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit, CliError> {
     match command {
         ExportCommand::Svg { common, width } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             let sheet = Sheet::new(&job.papers, &one_sheet(*width));
             job.write(cutting_svg(&job.title, &sheet).into_bytes(), "svg", console)
         }
         ExportCommand::Pdf { common, page, width } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             job.note_letters(console);
             let pdf = match page {
                 PageArg::A4 => booklet(&job.title, &job.papers, &job.steps, Page::A4),
@@ -46,7 +43,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         }
         ExportCommand::Plan(args) => plan(args, console),
         ExportCommand::Dxf { common } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             if job.papers.iter().any(is_told) {
                 console.note(
                     "DXF-AAMA has no layers for darts, pleats, folds and elastic: they are inner lines (layer 8), and \
@@ -63,7 +60,7 @@ fn one_sheet(width: Option<f64>) -> Layout {
 }
 
 /// A garment's papers on their way into a file.
-struct Job<'a> {
+struct ExportJob<'a> {
     args: &'a ExportArgs,
     name: String,
     title: String,
@@ -74,12 +71,12 @@ struct Job<'a> {
     inputs: Vec<PathBuf>,
 }
 
-impl<'a> Job<'a> {
+impl<'a> ExportJob<'a> {
     fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
-        let Drawn { loaded, drawings: drawn, allowance } =
-            Drawn::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
+        let DrawnGarment { loaded, drawings: drawn, allowance } =
+            DrawnGarment::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
         let label = Label { title: loaded.garment.title.clone(), wearer: args.wearer.clone(), date: args.date.clone() };
-        let papers = labelled(&drawn, &Options { allowance, whole: args.whole }, &label);
+        let papers = labelled(&drawn, &CuttingOptions { allowance, whole: args.whole }, &label);
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
         let steps = sewing_order(&loaded.garment).iter().map(|step| step.words()).collect();
@@ -102,48 +99,11 @@ impl<'a> Job<'a> {
         let usual = || folder(None, &self.name).join(format!("cutting.{kind}"));
         let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
         write_all(&[(target.clone(), bytes)], &borrowed(&self.inputs))?;
-        let rows: Vec<Row> = self.papers.iter().map(Row::new).collect();
-        let written = Written { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
+        let rows: Vec<PaperRow> = self.papers.iter().map(PaperRow::new).collect();
+        let written = ExportSummary { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
         console.results(&written, || written.text())?;
         Ok(Exit::Done)
     }
-}
-
-/// A garment as it is drawn, to be cut.
-pub(super) struct Drawn {
-    pub(super) loaded: Loaded,
-    pub(super) drawings: Vec<Drawing>,
-    /// Seam allowance of edges for which the file gives none, metres.
-    pub(super) allowance: f64,
-}
-
-impl Drawn {
-    /// Reads a size of a garment file, which messages call `shown`. `allowance` is the one asked for, mm.
-    pub(super) fn read(
-        file: &Path,
-        size: Option<&str>,
-        allowance: Option<f64>,
-        shown: &str,
-        console: &Console,
-    ) -> Result<Self, CliError> {
-        let loaded = read_size(file, size)?;
-        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-        let drawings = drawings(&loaded.file, &loaded.garment);
-        if allowance.is_none() && drawings.iter().any(lacks_allowance) {
-            let usual = DEFAULT_ALLOWANCE * MM;
-            console.note(&format!(
-                "{shown} does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
-            ));
-        }
-        Ok(Self { loaded, drawings, allowance: allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM) })
-    }
-}
-
-/// Whether an edge that will be cut has no allowance of its own.
-fn lacks_allowance(drawing: &Drawing) -> bool {
-    let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
-    let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
-    outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
 }
 
 /// Whether a paper has lines that DXF has no layer for.
@@ -152,33 +112,17 @@ fn is_told(paper: &Paper) -> bool {
     paper.marks.iter().any(|m| m.kind != MarkKind::Fold) || paper.sew.iter().any(|line| is_dart(line.of))
 }
 
-/// Of holes that are too small for their allowances.
-pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
-    let mm = |width: f64| (width * MM * 100.0).round() / 100.0;
-    let note = |n: &Narrowed| {
-        format!(
-            "hole '{}' of '{}' has no room for an allowance of {} mm: {} mm are drawn; say a narrower one, or slash \
-             into its corners",
-            n.edge,
-            paper.name,
-            mm(n.asked),
-            mm(n.drawn)
-        )
-    };
-    paper.narrowed.iter().map(note).collect()
-}
-
 /// The file that was written, and its pieces. Lengths are mm.
 #[derive(serde::Serialize)]
-struct Written {
+struct ExportSummary {
     file: String,
-    pieces: Vec<Row>,
+    pieces: Vec<PaperRow>,
     /// The order of sewing.
     sewing: Vec<String>,
 }
 
 #[derive(serde::Serialize)]
-struct Row {
+struct PaperRow {
     name: String,
     cut: usize,
     mirrored: bool,
@@ -188,7 +132,7 @@ struct Row {
     height: f64,
 }
 
-impl Row {
+impl PaperRow {
     fn new(paper: &Paper) -> Self {
         let [low, high] = paper.bounds();
         Self {
@@ -203,7 +147,7 @@ impl Row {
     }
 }
 
-impl Written {
+impl ExportSummary {
     fn text(&self) -> String {
         let mut rows = vec![["piece", "cut", "mm wide", "mm high", "", "fabric"].map(String::from).to_vec()];
         rows.extend(self.pieces.iter().map(|p| {

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::args::FabricCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::library_args::FabricCommand;
 use super::specimen;
-use crate::fabric::measure::{Measured, TESTS, fabric_yaml, measure};
+use crate::fabric::measure::{MeasuredFabric, TESTS, fabric_yaml, measure};
 use crate::fabric::{Fabric, FabricSheet, LiuMeasures, library, load, sheet};
 use crate::io::files::{check_writable, write_all};
 use crate::report::aligned;
@@ -137,7 +137,7 @@ fn from_readings(readings: &Path, output: &Path, console: &Console) -> Result<()
         return Err(CliError::Argument(format!("-o {name}: a fabric's file is named {name}.yaml, or it is not found")));
     }
     let stem = output.file_stem().map_or("fabric".into(), |s| s.to_string_lossy());
-    let Measured { sheet, fabric, tests, notes, inputs } = measure(readings, &stem)?;
+    let MeasuredFabric { sheet, fabric, tests, notes, inputs } = measure(readings, &stem)?;
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     write_all(&[(output.to_owned(), fabric_yaml(&sheet).into_bytes())], &inputs)?;
     for note in &notes {

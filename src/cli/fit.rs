@@ -1,9 +1,9 @@
 //! `fit`: the alterations that give a garment the fit that is wanted.
 
 use super::alter::note_written_anew;
-use super::args::FitArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::FitArgs;
 use super::make::borrowed;
 use crate::fitting::{Asked, Fitting, KnobRow, SPACING, WantRow, fit as fitted};
 use crate::io::files::{check_writable, write_all};

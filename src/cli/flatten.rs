@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{FlattenArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use super::make::{Goal, Plan, carry_out, folder, write};
+use super::flatten_args::FlattenArgs;
+use super::make::{MakeGoal, MakePlan, carry_out, folder, write};
 use crate::fabric;
-use crate::flatten::{Mode, Options};
+use crate::flatten::{FlattenOptions, Mode};
 use crate::geometry::MM;
+use crate::input::stem;
 use crate::io::files::check_writable;
 use crate::pipeline::{
     AT_REST, Cuts, DartStop, Darts, FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, Limit, OUTLINE_SVG, PATTERN_SVG,
@@ -27,16 +29,20 @@ const ROUNDS: usize = 1;
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
     foreign(args)?;
-    let options = Options { mode: args.mode.into(), corners: args.corners, ..Options::default() };
+    let options = FlattenOptions { mode: args.mode.into(), corners: args.corners, ..FlattenOptions::default() };
     if is_garment(&args.input) {
-        let plan = Plan {
+        let plan = MakePlan {
             garments: std::slice::from_ref(&args.input),
             output: args.output.as_deref(),
             overrides: args.overrides.checked(),
             drawing: PictureOptions::default(),
             turntable: None,
             table: args.table,
-            goal: Goal::Flat { from: args.from.as_deref(), options, rounds: args.rounds.map_or(ROUNDS, usize::from) },
+            goal: MakeGoal::Flat {
+                from: args.from.as_deref(),
+                options,
+                rounds: args.rounds.map_or(ROUNDS, usize::from),
+            },
         };
         return carry_out(&plan, console);
     }
@@ -120,7 +126,7 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
     Ok(cuts)
 }
 
-fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Exit, CliError> {
+fn surface(args: &FlattenArgs, flatten: FlattenOptions, console: &Console) -> Result<Exit, CliError> {
     let options = SurfaceOptions {
         unit: args.units.map(UnitArg::unit),
         up: args.up,
@@ -135,7 +141,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         limit: limit(args)?,
         flatten,
     };
-    let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let stem = stem(&args.input);
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
     let targets: Vec<PathBuf> = [FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON]

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::test::Outcome;
+use super::test_outcome::TestOutcome;
 
 /// One suite per garment, one case per bound, one per stage that did not come to rest, and one for being made at all.
-pub(super) fn xml(outcomes: &[Outcome]) -> String {
+pub(super) fn xml(outcomes: &[TestOutcome]) -> String {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n");
     for o in outcomes {
         let failures = o.bounds.iter().filter(|v| !v.ok).count() + o.restless.len();

@@ -3,22 +3,22 @@
 use std::path::{Path, PathBuf};
 
 use super::alter::note_written_anew;
-use super::args::{GarmentArgs, OnwardArgs};
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::{GarmentArgs, OnwardArgs};
 use super::picture_args::pixels;
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
     FormAsked, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, GARMENT_YAML, Glimpse, Job, NewPattern, Overrides, PATTERN_SVG,
-    PLACED_OBJ, PictureOptions, PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs,
-    problems, read_variant,
+    PLACED_OBJ, PictureOptions, PipelineError, REPORT_HTML, REPORT_JSON, ResultFile, ResultProblem, Run, SEWN_OBJ,
+    inputs, problems, read_variant,
 };
 use crate::report::{summary, table};
 
 /// How far a garment is taken, and from where.
-pub(super) struct Plan<'a> {
+pub(super) struct MakePlan<'a> {
     /// Garment files, the innermost first.
     pub(super) garments: &'a [PathBuf],
     pub(super) output: Option<&'a Path>,
@@ -28,12 +28,12 @@ pub(super) struct Plan<'a> {
     pub(super) turntable: Option<(&'a Path, Turning)>,
     /// Print every figure.
     pub(super) table: bool,
-    pub(super) goal: Goal<'a>,
+    pub(super) goal: MakeGoal<'a>,
 }
 
 /// The last stage, and what to begin with.
 #[derive(Clone, Copy)]
-pub(super) enum Goal<'a> {
+pub(super) enum MakeGoal<'a> {
     Sewn,
     Draped {
         from: Option<&'a Path>,
@@ -43,14 +43,14 @@ pub(super) enum Goal<'a> {
     },
     Flat {
         from: Option<&'a Path>,
-        options: flatten::Options,
+        options: flatten::FlattenOptions,
         /// Drapes of the new pattern.
         rounds: usize,
     },
 }
 
 /// The state that a run begins with.
-enum Start<'a> {
+enum StartState<'a> {
     Nothing,
     /// A folder of results, of the garment as it may have been before a change.
     Folder(&'a Path),
@@ -58,29 +58,31 @@ enum Start<'a> {
     Draped(&'a Path),
 }
 
-impl<'a> Goal<'a> {
-    fn start(self) -> Start<'a> {
+impl<'a> MakeGoal<'a> {
+    fn start(self) -> StartState<'a> {
         match self {
-            Goal::Draped { from: Some(from) } | Goal::Made { from: Some(from) } if from.is_dir() => Start::Folder(from),
-            Goal::Draped { from: Some(from) } | Goal::Made { from: Some(from) } => Start::Sewn(from),
-            Goal::Flat { from: Some(from), .. } => Start::Draped(from),
-            _ => Start::Nothing,
+            MakeGoal::Draped { from: Some(from) } | MakeGoal::Made { from: Some(from) } if from.is_dir() => {
+                StartState::Folder(from)
+            }
+            MakeGoal::Draped { from: Some(from) } | MakeGoal::Made { from: Some(from) } => StartState::Sewn(from),
+            MakeGoal::Flat { from: Some(from), .. } => StartState::Draped(from),
+            _ => StartState::Nothing,
         }
     }
 
     /// Names of the files the stages write. Files of an earlier run are not written again.
     fn files(self) -> Vec<&'static str> {
         let mut names = vec![GARMENT_PNG, REPORT_JSON];
-        if matches!(self.start(), Start::Nothing | Start::Folder(_)) {
+        if matches!(self.start(), StartState::Nothing | StartState::Folder(_)) {
             names.push(SEWN_OBJ);
         }
-        if !matches!(self, Goal::Sewn) && !matches!(self.start(), Start::Draped(_)) {
+        if !matches!(self, MakeGoal::Sewn) && !matches!(self.start(), StartState::Draped(_)) {
             names.extend([GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]);
         }
-        if matches!(self, Goal::Flat { .. } | Goal::Made { .. }) {
+        if matches!(self, MakeGoal::Flat { .. } | MakeGoal::Made { .. }) {
             names.push(PATTERN_SVG);
         }
-        if matches!(self.start(), Start::Draped(_)) {
+        if matches!(self.start(), StartState::Draped(_)) {
             names.push(GARMENT_YAML);
         }
         names
@@ -89,10 +91,10 @@ impl<'a> Goal<'a> {
     /// A run that has nothing yet, or what the earlier one has made.
     fn begin(self, job: &Job) -> Result<Run<'_>, PipelineError> {
         match self.start() {
-            Start::Nothing => Ok(Run::new(job)),
-            Start::Folder(folder) => Run::continued(job, folder),
-            Start::Sewn(file) => Run::from_sewn(job, file),
-            Start::Draped(file) => Run::from_draped(job, file),
+            StartState::Nothing => Ok(Run::new(job)),
+            StartState::Folder(folder) => Run::continued(job, folder),
+            StartState::Sewn(file) => Run::from_sewn(job, file),
+            StartState::Draped(file) => Run::from_draped(job, file),
         }
     }
 
@@ -100,35 +102,35 @@ impl<'a> Goal<'a> {
         let bars = console.progress();
         let mut tell = |stage: &str, share: f64| bars.show(stage, share);
         match self {
-            Goal::Sewn => run.sew(&mut tell),
-            Goal::Draped { .. } => run.drape(&mut tell),
-            Goal::Made { .. } => run.flatten(&flatten::Options::default(), &mut tell),
-            Goal::Flat { options, .. } => run.flatten(&options, &mut tell),
+            MakeGoal::Sewn => run.sew(&mut tell),
+            MakeGoal::Draped { .. } => run.drape(&mut tell),
+            MakeGoal::Made { .. } => run.flatten(&flatten::FlattenOptions::default(), &mut tell),
+            MakeGoal::Flat { options, .. } => run.flatten(&options, &mut tell),
         }
     }
 }
 
 /// `toile make`
 pub(super) fn make(args: &OnwardArgs, console: &Console) -> Result<Exit, CliError> {
-    carry_out(&plan(&args.garment, Goal::Made { from: args.from.as_deref() }), console)
+    carry_out(&plan(&args.garment, MakeGoal::Made { from: args.from.as_deref() }), console)
 }
 
 /// `toile sew`
 pub(super) fn sew(args: &GarmentArgs, console: &Console) -> Result<Exit, CliError> {
-    carry_out(&plan(args, Goal::Sewn), console)
+    carry_out(&plan(args, MakeGoal::Sewn), console)
 }
 
 /// `toile drape`
 pub(super) fn drape(args: &OnwardArgs, console: &Console) -> Result<Exit, CliError> {
-    carry_out(&plan(&args.garment, Goal::Draped { from: args.from.as_deref() }), console)
+    carry_out(&plan(&args.garment, MakeGoal::Draped { from: args.from.as_deref() }), console)
 }
 
-fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
+fn plan<'a>(args: &'a GarmentArgs, goal: MakeGoal<'a>) -> MakePlan<'a> {
     let mut overrides = args.overrides.checked();
     // `--size 1200x800` is the picture's, other words are sizes of the garment.
     let picture = overrides.size.as_deref().and_then(pixels);
     overrides.size = overrides.size.filter(|_| picture.is_none());
-    Plan {
+    MakePlan {
         garments: &args.garments,
         output: args.output.as_deref(),
         overrides,
@@ -140,7 +142,7 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
 }
 
 /// Takes a garment to its goal, writes the files and says how it went.
-pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
+pub(super) fn carry_out(plan: &MakePlan, console: &Console) -> Result<Exit, CliError> {
     let mut worn = Vec::new();
     for file in plan.garments {
         worn.push((file.clone(), read_variant(file, plan.overrides.variant())?));
@@ -151,8 +153,8 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
         worn.iter().flat_map(|(file, loaded)| inputs(file, &loaded.garment, &plan.overrides)).collect();
     inputs.extend(match plan.goal.start() {
         // A result may take the place of the one it went on from.
-        Start::Nothing | Start::Folder(_) => None,
-        Start::Sewn(file) | Start::Draped(file) => Some(file.to_owned()),
+        StartState::Nothing | StartState::Folder(_) => None,
+        StartState::Sewn(file) | StartState::Draped(file) => Some(file.to_owned()),
     });
     let mut targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
     targets.extend(plan.turntable.map(|(file, _)| file.to_owned()));
@@ -197,13 +199,13 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
 
 /// The pattern that a form asks for, if the run was begun with one.
 fn new_pattern(
-    plan: &Plan,
+    plan: &MakePlan,
     text: &str,
     folder: &Path,
     run: &mut Run,
     console: &Console,
 ) -> Result<Option<NewPattern>, CliError> {
-    let Goal::Flat { from: Some(_), options, rounds } = plan.goal else { return Ok(None) };
+    let MakeGoal::Flat { from: Some(_), options, rounds } = plan.goal else { return Ok(None) };
     let new = folder.join(GARMENT_YAML);
     let asked = FormAsked { text, shown: &new.display().to_string(), overrides: &plan.overrides, rounds, options };
     let bars = console.progress();
@@ -217,7 +219,7 @@ fn new_pattern(
 
 /// Writes the picture of a coarser level, which the picture of the garment replaces when that is done. It is written
 /// with all other files again: that it cannot be written is told then.
-fn show_early(job: &Job, glimpse: &Glimpse, plan: &Plan, folder: &Path, inputs: &[&Path]) {
+fn show_early(job: &Job, glimpse: &Glimpse, plan: &MakePlan, folder: &Path, inputs: &[&Path]) {
     if let Ok(picture) = job.draw_glimpse(glimpse, &plan.drawing.layout) {
         let _ = write(vec![(GARMENT_PNG, picture)], folder, inputs);
     }
@@ -244,7 +246,7 @@ pub(super) fn borrowed(paths: &[PathBuf]) -> Vec<&Path> {
 
 /// Writes what there is of a garment that could not be finished. That it could not is the error to report; if this
 /// fails as well, it is only mentioned.
-fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], console: &Console) {
+fn leave_state(run: &Run, plan: &MakePlan, folder: &Path, inputs: &[PathBuf], console: &Console) {
     let Ok(files) = run.state(&plan.drawing) else { return };
     let wanted = [plan.goal.files(), vec![PLACED_OBJ]].concat();
     let files: Vec<ResultFile> = files.into_iter().filter(|f| wanted.contains(&f.0)).collect();
@@ -260,9 +262,9 @@ fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], consol
 }
 
 /// Says what is wrong: broken bounds in any case, the rest unless all should be quiet.
-fn judge(problems: &[Problem], console: &Console) -> Exit {
+fn judge(problems: &[ResultProblem], console: &Console) -> Exit {
     let mut exit = Exit::Done;
-    for Problem { text, out_of_bounds } in problems {
+    for ResultProblem { text, out_of_bounds } in problems {
         if *out_of_bounds {
             console.complain(text);
             exit = Exit::OutOfBounds;

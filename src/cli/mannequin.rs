@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::args::MannequinCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::library_args::MannequinCommand;
 use crate::io::body::{Body, load_body_of, mannequin_obj};
 use crate::io::files::{check_writable, write_all};
 use crate::mannequin::{MannequinSpec, Measures, library};

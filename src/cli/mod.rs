@@ -1,9 +1,11 @@
 //! The command line.
 //!
-//! `args` holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
-//! says how it went. Results go to standard output, everything else to standard error.
+//! `args` and the files whose names end in `_args` hold what clap reads, unchecked. Each command has a file that checks
+//! its arguments, runs the pipeline and says how it went. Results go to standard output, everything else to standard
+//! error.
 
 mod alter;
+mod arg_values;
 mod args;
 mod batch;
 mod batch_args;
@@ -11,15 +13,21 @@ mod check;
 mod check_mesh;
 mod console;
 mod draft;
+mod drawn;
 mod exit;
 mod export;
 mod fabric;
 mod fit;
 mod flatten;
+mod flatten_args;
+mod garment_args;
 mod import;
+mod import_args;
 mod junit;
+mod library_args;
 mod make;
 mod mannequin;
+mod paper_args;
 mod picture_args;
 mod plan;
 mod report;
@@ -27,6 +35,7 @@ mod sample;
 mod specimen;
 mod studio;
 mod test;
+mod test_outcome;
 mod update;
 
 use std::ffi::OsString;

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::args::ColorArg;
-use crate::picture::{PictureLayout, Turning, View};
-use crate::pipeline::PictureOptions;
+use clap::ValueEnum;
+
+use crate::picture::{PictureLayout, Turning, ViewSide};
+use crate::pipeline::{Color, PictureOptions};
 
 /// The picture.
 #[derive(Debug, clap::Args)]
@@ -14,7 +15,7 @@ pub(super) struct PictureArgs {
     color: ColorArg,
     /// Views of the picture from left to right [default: front,side,back]
     #[arg(long = "view", value_name = "LIST", value_delimiter = ',', value_parser = view)]
-    views: Vec<View>,
+    views: Vec<ViewSide>,
     /// Write the garment turning once round as well, for web pages and messages
     #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
     pub(super) turntable: Option<(PathBuf, Turning)>,
@@ -30,9 +31,9 @@ impl PictureArgs {
 }
 
 /// A side from which the garment is seen.
-fn view(text: &str) -> Result<View, String> {
-    let names = View::ALL.map(|view| view.label().to_lowercase());
-    let found = View::ALL.into_iter().zip(&names).find(|(_, name)| *name == text);
+fn view(text: &str) -> Result<ViewSide, String> {
+    let names = ViewSide::ALL.map(|view| view.label().to_lowercase());
+    let found = ViewSide::ALL.into_iter().zip(&names).find(|(_, name)| *name == text);
     found.map(|(view, _)| view).ok_or_else(|| format!("one of {} is expected", names.join(", ")))
 }
 
@@ -52,5 +53,33 @@ fn turntable(text: &str) -> Result<(PathBuf, Turning), String> {
         "gif" => Ok((path, Turning::Gif)),
         "apng" | "png" => Ok((path, Turning::Apng)),
         _ => Err("a file that ends in .gif or .apng is expected".into()),
+    }
+}
+
+/// `--color`
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum ColorArg {
+    /// Which piece it is
+    #[default]
+    Piece,
+    /// How far warp and weft are stretched
+    Strain,
+    /// How far it is from the skin
+    Ease,
+    /// How hard it presses on the skin
+    Pressure,
+    /// Which fabric it is
+    Fabric,
+}
+
+impl From<ColorArg> for Color {
+    fn from(color: ColorArg) -> Self {
+        match color {
+            ColorArg::Piece => Self::Piece,
+            ColorArg::Strain => Self::Strain,
+            ColorArg::Ease => Self::Ease,
+            ColorArg::Pressure => Self::Pressure,
+            ColorArg::Fabric => Self::Fabric,
+        }
     }
 }

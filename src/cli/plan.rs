@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::PlanArgs;
 use super::console::Console;
+use super::drawn::{DrawnGarment, narrowed};
 use super::exit::{CliError, Exit};
-use super::export::{Drawn, narrowed};
 use super::make::{borrowed, folder};
-use crate::cutting::{Label, Laid, Options, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
+use super::paper_args::PlanArgs;
+use crate::cutting::{CuttingOptions, Label, LaidPaper, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
 use crate::geometry::{MM, box_of};
 use crate::io::files::{check_writable, write_all};
 use crate::io::pdf_write::one_page;
@@ -19,7 +19,7 @@ use crate::report::aligned;
 
 /// The result that is printed. Lengths are mm, areas mm².
 #[derive(Serialize)]
-struct Written {
+struct PlanSummary {
     files: Vec<String>,
     plan: Whole,
 }
@@ -46,12 +46,12 @@ struct OfFabric {
     open: f64,
     area: f64,
     efficiency: f64,
-    pieces: Vec<Row>,
+    pieces: Vec<LaidRow>,
 }
 
 /// A paper on the cloth, and the corner of its box that is nearest to the beginning of the cloth and the fold.
 #[derive(Serialize)]
-struct Row {
+struct LaidRow {
     piece: String,
     x: f64,
     y: f64,
@@ -63,7 +63,7 @@ struct Row {
 
 /// `toile export plan`
 pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, CliError> {
-    let pieces = Pieces::read(args, console)?;
+    let pieces = PaperPieces::read(args, console)?;
     let targets = targets(args, &pieces.name)?;
     check_writable(&targets, &borrowed(&pieces.inputs))?;
     let options = PlanOptions { width: args.width / MM, nap: args.nap, open: args.open };
@@ -87,7 +87,7 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, CliError>
         }
     }
     write_all(&files, &borrowed(&pieces.inputs))?;
-    let written = Written { files: files.iter().map(|f| f.0.display().to_string()).collect(), plan: whole(&found) };
+    let written = PlanSummary { files: files.iter().map(|f| f.0.display().to_string()).collect(), plan: whole(&found) };
     console.results(&written, || text(&written))?;
     Ok(Exit::Done)
 }
@@ -105,7 +105,7 @@ fn saving(folded: &Plan, open: &Plan) -> Option<String> {
 }
 
 /// The papers of all garments.
-struct Pieces {
+struct PaperPieces {
     drawn: Vec<Paper>,
     whole: Vec<Paper>,
     name: String,
@@ -113,14 +113,14 @@ struct Pieces {
     inputs: Vec<PathBuf>,
 }
 
-impl Pieces {
+impl PaperPieces {
     fn read(args: &PlanArgs, console: &Console) -> Result<Self, CliError> {
         let mut out = Self { drawn: vec![], whole: vec![], name: String::new(), title: String::new(), inputs: vec![] };
         let (mut names, mut titles) = (Vec::new(), Vec::new());
         for file in &args.garments {
             let shown = file.display().to_string();
-            let Drawn { loaded, drawings, allowance } =
-                Drawn::read(file, args.size.as_deref(), args.allowance, &shown, console)?;
+            let DrawnGarment { loaded, drawings, allowance } =
+                DrawnGarment::read(file, args.size.as_deref(), args.allowance, &shown, console)?;
             let label = Label { title: loaded.garment.title.clone(), wearer: None, date: None };
             // Pieces of several garments may have one name.
             let named = |paper: Paper| match args.garments.len() {
@@ -128,7 +128,7 @@ impl Pieces {
                 _ => Paper { name: format!("{}/{}", loaded.garment.name, paper.name), ..paper },
             };
             for (whole, papers) in [(false, &mut out.drawn), (true, &mut out.whole)] {
-                papers.extend(labelled(&drawings, &Options { allowance, whole }, &label).into_iter().map(named));
+                papers.extend(labelled(&drawings, &CuttingOptions { allowance, whole }, &label).into_iter().map(named));
             }
             out.inputs.extend(inputs(file, &loaded.garment, &Overrides::default()));
             names.push(loaded.garment.name.clone());
@@ -183,9 +183,9 @@ fn of_fabric(plan: &Plan) -> OfFabric {
     }
 }
 
-fn row(laid: &Laid) -> Row {
+fn row(laid: &LaidPaper) -> LaidRow {
     let [low, _] = box_of(laid.paper.cut.iter().flatten().copied());
-    Row {
+    LaidRow {
         piece: laid.paper.name.clone(),
         x: mm(low.x),
         y: mm(low.y),
@@ -196,7 +196,7 @@ fn row(laid: &Laid) -> Row {
     }
 }
 
-fn text(written: &Written) -> String {
+fn text(written: &PlanSummary) -> String {
     let mut rows = vec![["fabric", "width mm", "length mm", "of that folded", "used"].map(String::from).to_vec()];
     rows.extend(written.plan.fabrics.iter().map(|f| {
         let name = f.cloth.as_ref().map_or_else(|| f.fabric.clone(), |cloth| format!("{} ({cloth})", f.fabric));

@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use super::args::{ReportArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::ReportArgs;
 use super::make::write;
 use crate::io::body::load_body;
 use crate::io::files::check_writable;

@@ -3,30 +3,30 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use super::args::in_millimetres;
+use super::arg_values::in_millimetres;
 use super::batch::told;
 use super::batch_args::SampleArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::borrowed;
-use crate::batch::{Choice, Job, garments_of_folder, list_text, sample as draw};
+use crate::batch::{BatchJob, SampleChoice, garments_of_folder, list_text, sample as draw};
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::{Ranges, Variant};
 use crate::mannequin::{MannequinSpec, Measures};
 use crate::pipeline::{PipelineError, read_variant};
-use crate::{fabric, mannequin};
+use crate::{fabric, input, mannequin};
 
 /// The word for a garment as it is drawn, among the names of its sizes.
 const DRAWN: &str = "none";
 
 /// `toile sample`
 pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliError> {
-    let options = Job { spacing: args.spacing.map(in_millimetres), ..Job::options() };
+    let options = BatchJob { spacing: args.spacing.map(in_millimetres), ..BatchJob::options() };
     let garments = garments(&args.garments, console)?;
     let or_all = |given: &[String], all: Vec<&str>| {
         if given.is_empty() { all.into_iter().map(str::to_owned).collect() } else { once_each(given) }
     };
-    let choice = Choice {
+    let choice = SampleChoice {
         garments: sized(&garments, &args.sizes)?,
         ranges: args
             .vary
@@ -36,8 +36,8 @@ pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliEr
         bodies: or_all(&args.bodies, mannequin::library()),
         fabrics: or_all(&args.fabrics, fabric::library()),
     };
-    check_known("--bodies", &choice.bodies, &mannequin::library())?;
-    check_known("--fabrics", &choice.fabrics, &fabric::library())?;
+    check_names("--bodies", &choice.bodies, &mannequin::library())?;
+    check_names("--fabrics", &choice.fabrics, &fabric::library())?;
     check_ends(&choice, args.vary.as_deref())?;
     let jobs = draw(&choice, args.count.get(), args.seed, &options)?;
     let inputs = inputs(&choice, args.vary.as_deref());
@@ -65,7 +65,7 @@ fn garments(path: &Path, console: &Console) -> Result<Vec<PathBuf>, CliError> {
         crate::pipeline::read(path)?;
         return Ok(vec![path.to_owned()]);
     }
-    let jobs = told(garments_of_folder(path, &Job::options())?, console);
+    let jobs = told(garments_of_folder(path, &BatchJob::options())?, console);
     Ok(jobs.into_iter().flat_map(|job| job.garment).collect())
 }
 
@@ -77,16 +77,9 @@ fn once_each(names: &[String]) -> Vec<String> {
 }
 
 /// Finds a slip of the pen now instead of in a thousand failures.
-fn check_known(option: &str, names: &[String], shipped: &[&str]) -> Result<(), CliError> {
-    let unknown = names.iter().find(|name| !shipped.contains(&name.as_str()) && !Path::new(name).is_file());
-    unknown.map_or(Ok(()), |name| {
-        let nearest = crate::input::nearest(name, shipped.iter().copied());
-        let meant = nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
-        Err(CliError::Argument(format!(
-            "{option}: '{name}' is neither in the library ({}) nor a file{meant}",
-            shipped.join(", ")
-        )))
-    })
+fn check_names(option: &str, names: &[String], shipped: &[&str]) -> Result<(), CliError> {
+    let known = |name: &String| input::check_known(name, shipped);
+    names.iter().try_for_each(known).map_err(|why| CliError::Argument(format!("{option}: {why}")))
 }
 
 /// Each garment with each of its sizes that is to be drawn.
@@ -111,7 +104,7 @@ fn sized(garments: &[PathBuf], wanted: &[String]) -> Result<Vec<(PathBuf, Option
 }
 
 /// Tries both ends of all ranges on every garment and body, so that a slip of the pen is found now.
-fn check_ends(choice: &Choice, file: Option<&Path>) -> Result<(), CliError> {
+fn check_ends(choice: &SampleChoice, file: Option<&Path>) -> Result<(), CliError> {
     for end in [0.0, 1.0] {
         if choice.ranges.has_measures() {
             choice.bodies.iter().try_for_each(|body| check_measures(&choice.ranges, body, end))?;
@@ -153,7 +146,7 @@ fn check_measures(ranges: &Ranges, body: &str, end: f64) -> Result<(), CliError>
     Ok(())
 }
 
-fn inputs(choice: &Choice, ranges: Option<&Path>) -> Vec<PathBuf> {
+fn inputs(choice: &SampleChoice, ranges: Option<&Path>) -> Vec<PathBuf> {
     let named = choice.bodies.iter().chain(&choice.fabrics).map(PathBuf::from).filter(|path| path.is_file());
     let garments = choice.garments.iter().map(|(file, _)| file.clone());
     garments.chain(named).chain(ranges.map(Path::to_owned)).collect()

@@ -12,7 +12,7 @@ use crate::fabric::{load, sheet};
 use crate::io::files::{check_writable, write_all};
 use crate::picture::draw_shadow;
 use crate::report::aligned;
-use crate::specimen::{Draped, Figure, Known, Sample, TESTS, Test};
+use crate::specimen::{BenchFigure, BenchTest, DrapedDisc, Known, Sample, TESTS};
 
 /// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be or a test
 /// gives none.
@@ -23,7 +23,7 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
         drape: sheet.drape_band(),
         published: sheet.liu.as_ref().map(|liu| liu.means),
     };
-    let tests: Vec<&Test> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
+    let tests: Vec<&BenchTest> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
     if let Some(output) = output {
         let home = Path::new(name).parent().unwrap_or(Path::new(""));
         let curves: Vec<_> = sheet.curve_files().map(|file| home.join(file)).collect();
@@ -60,12 +60,12 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
     Ok(if holds { Exit::Done } else { Exit::OutOfBounds })
 }
 
-fn picture(sample: &Sample, draped: &Draped) -> Result<Vec<u8>, CliError> {
+fn picture(sample: &Sample, draped: &DrapedDisc) -> Result<Vec<u8>, CliError> {
     let words = format!("one lay: drape coefficient {:.0} %, {} folds", 100.0 * draped.coefficient, draped.folds);
     Ok(draw_shadow(&draped.shadow.dark, draped.shadow.width, &sample.fabric.name, &words)?)
 }
 
-fn figure_value(f: &Figure) -> Value {
+fn figure_value(f: &BenchFigure) -> Value {
     let mut value = json!({"test": f.test, "what": f.what, "unit": f.unit, "measured": f.measured});
     match f.known {
         Known::Value { value: known, tolerance } => {
@@ -80,7 +80,7 @@ fn figure_value(f: &Figure) -> Value {
     value
 }
 
-fn table(figures: &[Figure]) -> String {
+fn table(figures: &[BenchFigure]) -> String {
     let mut rows = vec![["test", "figure", "measured", "known", "error %", "at most", ""].map(String::from).to_vec()];
     for f in figures {
         let number = |x: f64| if x.abs() < 0.1 || x.abs() >= 1e4 { format!("{x:.3e}") } else { format!("{x:.4}") };

@@ -4,9 +4,9 @@ use std::ffi::OsString;
 use std::io;
 use std::num::NonZeroUsize;
 
-use super::args::StudioArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::StudioArgs;
 use crate::geometry::MM;
 use crate::pipeline::Overrides;
 use crate::studio::{Studio, StudioOptions, opened, write_frames};

@@ -5,46 +5,21 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use serde::Serialize;
 
-use super::args::TestArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::TestArgs;
 use super::junit;
 use super::make::borrowed;
+use super::test_outcome::TestOutcome;
 use super::update::updated;
-use crate::flatten::Options;
+use crate::flatten::FlattenOptions;
+use crate::input::stem;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::{FabricUse, Garment, Piece};
 use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read, read_variant};
 use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
-
-/// How a garment did.
-#[derive(Serialize)]
-pub(super) struct Outcome {
-    /// Its file.
-    pub(super) file: String,
-    /// Its short name.
-    pub(super) garment: String,
-    /// Whether it was made, came to rest and keeps all its bounds.
-    pub(super) ok: bool,
-    /// Wall-clock time, s.
-    pub(super) seconds: f64,
-    /// One per bound; empty when it was not made.
-    pub(super) bounds: Vec<Verdict>,
-    /// The stages that did not come to rest: what was measured then is of a garment on its way.
-    pub(super) restless: Vec<Restless>,
-    /// Why it was not made.
-    pub(super) error: Option<String>,
-    #[serde(skip)]
-    exit: Exit,
-    #[serde(skip)]
-    path: PathBuf,
-    /// The verdicts of each of the file's tests.
-    #[serde(skip)]
-    by_test: Vec<Vec<Verdict>>,
-}
 
 /// `toile test`
 pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError> {
@@ -56,7 +31,7 @@ pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError>
         check_writable(std::slice::from_ref(junit), &borrowed(&inputs))?;
     }
     let begin = Instant::now();
-    let outcomes: Vec<Outcome> = files.par_iter().flat_map_iter(|file| outcomes(file, &overrides)).collect();
+    let outcomes: Vec<TestOutcome> = files.par_iter().flat_map_iter(|file| outcomes(file, &overrides)).collect();
     // Garments are made side by side: the sum of their times is not what passed.
     let passed = begin.elapsed();
     let updated = if args.update { update(&outcomes)? } else { Vec::new() };
@@ -79,7 +54,7 @@ pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError>
 }
 
 /// Writes new bounds into the files of garments that were made and came to rest, and says which these are.
-fn update(outcomes: &[Outcome]) -> Result<Vec<PathBuf>, CliError> {
+fn update(outcomes: &[TestOutcome]) -> Result<Vec<PathBuf>, CliError> {
     let mut written = Vec::new();
     for of_file in outcomes.chunk_by(|a, b| a.path == b.path) {
         let path = &of_file[0].path;
@@ -100,7 +75,7 @@ fn update(outcomes: &[Outcome]) -> Result<Vec<PathBuf>, CliError> {
 }
 
 /// For every test the worst verdicts of a garment's runs.
-fn worst(runs: &[Outcome]) -> Vec<Vec<Verdict>> {
+fn worst(runs: &[TestOutcome]) -> Vec<Vec<Verdict>> {
     let mut worst: Vec<Vec<Verdict>> = runs[0].by_test.clone();
     for run in &runs[1..] {
         for (worst, other) in worst.iter_mut().zip(&run.by_test) {
@@ -145,16 +120,16 @@ fn read_by(file: &Path, overrides: &Overrides) -> Vec<PathBuf> {
 }
 
 /// Makes one garment as its file says, in every size, and once more in every fabric that it has bounds for.
-fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
+fn outcomes(file: &Path, overrides: &Overrides) -> Vec<TestOutcome> {
     let begin = Instant::now();
     let size = overrides.size.as_deref();
     let loaded = match read_variant(file, overrides.variant()) {
         Ok(loaded) => loaded,
-        Err(refused) => return vec![Outcome::new(file, size, None, begin, Err(refused))],
+        Err(refused) => return vec![TestOutcome::new(file, size, None, begin, Err(refused))],
     };
     let sizes = loaded.file.sizes.iter().map(|s| s.name.value.clone());
     let of_size = |size| outcomes(file, &Overrides { size: Some(size), ..overrides.clone() });
-    let of_sizes: Vec<Outcome> = sizes.flat_map(of_size).collect();
+    let of_sizes: Vec<TestOutcome> = sizes.flat_map(of_size).collect();
     let mut runs = vec![(None, overrides.clone())];
     if overrides.fabric.is_none() {
         let in_fabric =
@@ -163,7 +138,7 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     }
     let run = |(fabric, overrides): &(Option<String>, Overrides)| {
         let begin = Instant::now();
-        Outcome::new(file, size, fabric.as_deref(), begin, made(file, loaded.clone(), overrides))
+        TestOutcome::new(file, size, fabric.as_deref(), begin, made(file, loaded.clone(), overrides))
     };
     runs.iter().map(run).chain(of_sizes).collect()
 }
@@ -192,13 +167,13 @@ fn beside(garment: &Path, fabric: &str) -> String {
 }
 
 /// The figures of a garment that was made.
-struct Made {
+struct MadeGarment {
     bounds: Vec<Verdict>,
     by_test: Vec<Vec<Verdict>>,
     restless: Vec<Restless>,
 }
 
-impl Made {
+impl MadeGarment {
     fn new(garment: &Garment, report: &Report) -> Self {
         Self {
             bounds: verdicts(garment, report),
@@ -214,22 +189,22 @@ impl Made {
 }
 
 /// Makes one garment, in memory.
-fn made(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Made, PipelineError> {
+fn made(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<MadeGarment, PipelineError> {
     let job = Job::new(file, loaded, overrides)?;
     let mut run = Run::new(&job);
     // Several garments are under way at once; a bar can show one.
-    run.flatten(&Options::default(), &mut |_, _| {})?;
-    Ok(Made::new(&job.garment, &run.report()))
+    run.flatten(&FlattenOptions::default(), &mut |_, _| {})?;
+    Ok(MadeGarment::new(&job.garment, &run.report()))
 }
 
-impl Outcome {
+impl TestOutcome {
     /// How the garment of `file` did since `begin`, if need be in another fabric than its own.
     fn new(
         file: &Path,
         size: Option<&str>,
         fabric: Option<&str>,
         begin: Instant,
-        made: Result<Made, PipelineError>,
+        made: Result<MadeGarment, PipelineError>,
     ) -> Self {
         let name = |text: String| {
             let sized = size.map_or_else(|| text.clone(), |size| format!("{text} (size {size})"));
@@ -247,7 +222,7 @@ impl Outcome {
         };
         Self {
             file: name(file.display().to_string()),
-            garment: name(file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())),
+            garment: name(stem(file)),
             ok: exit == Exit::Done,
             seconds: begin.elapsed().as_secs_f64(),
             bounds,
@@ -261,7 +236,7 @@ impl Outcome {
 }
 
 /// A line per garment, and the time that `passed` on the clock.
-fn lines(outcomes: &[Outcome], passed: Duration) -> String {
+fn lines(outcomes: &[TestOutcome], passed: Duration) -> String {
     let lines = outcomes.iter().map(|outcome| {
         let broken = outcome.bounds.iter().filter(|verdict| !verdict.ok).count();
         let kept = outcome.bounds.len() - broken;
@@ -276,14 +251,14 @@ fn lines(outcomes: &[Outcome], passed: Duration) -> String {
     lines.collect::<String>() + &tally(outcomes, passed)
 }
 
-fn tally(outcomes: &[Outcome], passed: Duration) -> String {
+fn tally(outcomes: &[TestOutcome], passed: Duration) -> String {
     let good = outcomes.iter().filter(|o| o.ok).count();
     let seconds = passed.as_secs_f64();
     format!("  {good} of {} garments within their bounds, {seconds:.1} s\n", outcomes.len())
 }
 
 /// The figures, garment by garment, and the time that `passed` on the clock.
-fn table(outcomes: &[Outcome], passed: Duration) -> String {
+fn table(outcomes: &[TestOutcome], passed: Duration) -> String {
     let head = ["garment", "bound", "measured", "limit", "", "at", ""];
     let mut rows = vec![head.map(String::from).to_vec()];
     for outcome in outcomes {
@@ -294,7 +269,7 @@ fn table(outcomes: &[Outcome], passed: Duration) -> String {
     format!("{}\n{}", aligned(&rows), tally(outcomes, passed))
 }
 
-fn row(outcome: &Outcome, v: &Verdict) -> Vec<String> {
+fn row(outcome: &TestOutcome, v: &Verdict) -> Vec<String> {
     let digits = if v.unit.is_empty() { 0 } else { 3 };
     vec![
         outcome.garment.clone(),
@@ -308,13 +283,13 @@ fn row(outcome: &Outcome, v: &Verdict) -> Vec<String> {
 }
 
 /// The row of a garment without figures, since it could not be made.
-fn failed(outcome: &Outcome, what: String) -> Vec<String> {
+fn failed(outcome: &TestOutcome, what: String) -> Vec<String> {
     let mut row = vec![outcome.garment.clone(), what];
     row.extend(["", "", "", "", "NO"].map(String::from));
     row
 }
 
-fn complain(outcome: &Outcome, out: &[&Verdict], console: &Console) {
+fn complain(outcome: &TestOutcome, out: &[&Verdict], console: &Console) {
     for verdict in out {
         console.complain(&format!("{}: out of bounds: {verdict}", outcome.file));
     }
@@ -332,17 +307,17 @@ mod tests {
     use crate::report::{Drift, Stage};
 
     /// How a garment did that keeps its bounds, and whose drape came to rest or did not.
-    fn outcome(converged: bool) -> Outcome {
+    fn outcome(converged: bool) -> TestOutcome {
         let text = include_str!("../../tests/data/skirt.yaml");
         let loaded = crate::io::garment::read_text("skirt", "skirt.yaml", text).map_err(|e| e.to_string());
         let stage = |name: &str, converged| Stage { name: name.into(), converged, ..Stage::default() };
         let (drift, residual) = (Some(Drift { rms: 2.0, max: 9.0 }), Some(18.2));
         let drape = Stage { iterations: 600, drift, residual, ..stage("drape", converged) };
         let report = Report { stages: vec![stage("sew", true), drape, stage("flatten", true)], ..Report::default() };
-        let mut made = Made::new(&loaded.expect("a garment").garment, &report);
+        let mut made = MadeGarment::new(&loaded.expect("a garment").garment, &report);
         // Nobody wears a report without openings.
         made.bounds.retain(|v| v.bound != "openings not worn");
-        Outcome::new(Path::new("skirt.yaml"), None, None, Instant::now(), Ok(made))
+        TestOutcome::new(Path::new("skirt.yaml"), None, None, Instant::now(), Ok(made))
     }
 
     #[test]
@@ -385,7 +360,7 @@ mod tests {
     /// Two garments that were made side by side in three seconds each took three seconds.
     #[test]
     fn the_table_ends_with_the_time_on_the_clock() {
-        let both = [(); 2].map(|()| Outcome { seconds: 3.0, ..outcome(true) });
+        let both = [(); 2].map(|()| TestOutcome { seconds: 3.0, ..outcome(true) });
         let table = table(&both, Duration::from_secs(3));
         assert!(table.ends_with("2 of 2 garments within their bounds, 3.0 s\n"), "{table}");
     }

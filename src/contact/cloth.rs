@@ -1,17 +1,16 @@
 //! Pairs of cloth primitives near each other.
 
-use std::collections::{HashMap, HashSet};
-
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
 
 use super::Contact;
+use super::cloth_search::{ClothSearch, PatchPrimitives, PatchShape, Primitive};
 use super::narrow::apart;
-use crate::geometry::{Topology, Vec2, Vec3, box_of, sorted_pair};
+use super::neighbourhood::Neighbourhood;
+use super::patches::{ClothPatch, patches};
+use crate::geometry::{Vec2, Vec3};
 use crate::parallel::{self, HEAVY, LIGHT, MEDIUM};
 
-/// Triangles per leaf of the tree: few enough for tight boxes, enough that the tree costs little.
-const PATCH: usize = 10;
 /// Largest angle between the normals of patches that count as one smooth sheet, radians. Nothing within such a sheet
 /// meets before the next search.
 const SMOOTH_CONE: f64 = 1.2;
@@ -19,43 +18,18 @@ const SMOOTH_CONE: f64 = 1.2;
 /// is compressed in its own plane can pass through itself without turning a normal.
 const SHRUNK: f64 = 0.8;
 
-/// Pairs that are neighbours by construction and therefore no contacts.
-#[derive(Clone, Debug, Default)]
-pub struct Neighbourhood {
-    /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
-    pub class: Vec<u32>,
-    /// Node → whether it may pass through other such nodes. Pairs of primitives with such nodes on both sides are left
-    /// out.
-    pub passing: Vec<bool>,
-}
-
-/// Angle of cloth round a rim particle, radians (315°), from which it is the end of a slit or a narrow dart. The sides
-/// of a slit may slide over each other without turning a normal.
-const SLIT: f64 = 5.5;
-
-struct Patch {
-    piece: u32,
-    triangles: Vec<u32>,
-    nodes: Vec<u32>,
-    edges: Vec<[u32; 2]>,
-    /// Patches that it shares a particle with, and itself, sorted.
-    beside: Vec<u32>,
-    /// Whether a slit ends in it.
-    slit: bool,
-}
-
 /// Finds near pairs in one garment. Triangles are grouped into patches once, in the flat pieces. The tree over the
 /// patches is refitted for every search.
 pub struct ClothDetector {
     triangles: Vec<[u32; 3]>,
     /// Flat corners of every triangle.
     flat: Vec<[Vec2; 3]>,
-    patches: Vec<Patch>,
+    patches: Vec<ClothPatch>,
     bvh: Bvh,
     workspace: BvhWorkspace,
     hood: Neighbourhood,
     /// Shape of every patch at the last search.
-    shapes: Vec<Shape>,
+    shapes: Vec<PatchShape>,
     /// Pairs of patches near each other at the last search, without smooth sheets, sorted.
     open: Vec<(u32, u32)>,
 }
@@ -63,22 +37,10 @@ pub struct ClothDetector {
 impl ClothDetector {
     /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece.
     pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood) -> Self {
-        let centers: Vec<Vec2> = flat.iter().map(|c| (c[0] + c[1] + c[2]) / 3.0).collect();
-        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
-        order.sort_by_key(|&t| piece[t as usize]);
-        let mut leaves = Vec::new();
-        for group in order.chunk_by_mut(|&a, &b| piece[a as usize] == piece[b as usize]) {
-            split(group, &centers, &mut leaves);
-        }
-        let corners = particles(triangles, flat, piece);
-        let leaves = leaves.iter().flat_map(|leaf| connected(leaf, &corners)).collect();
-        let mut patches = own_primitives(leaves, triangles, piece);
-        find_beside(&mut patches, &corners);
-        find_slits(&mut patches, &corners, flat);
         Self {
             triangles: triangles.to_vec(),
             flat: flat.to_vec(),
-            patches,
+            patches: patches(triangles, flat, piece),
             bvh: Bvh::new(),
             workspace: BvhWorkspace::default(),
             hood,
@@ -124,7 +86,7 @@ impl ClothDetector {
     /// The pairs of [`ClothDetector::detect`] that have a `stale` node. Call [`ClothDetector::look`] first with the
     /// same arguments.
     pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
-        let find = Search { detector: self, x, reach, parts: self.parts(x, stale) };
+        let find = ClothSearch { hood: &self.hood, shapes: &self.shapes, x, reach, parts: self.parts(x, stale) };
         let mut pairs = self.open.clone();
         pairs.retain(|&(a, b)| [a, b].iter().any(|p| find.parts[*p as usize].triangles.iter().any(|t| t.stale)));
         let found = parallel::map(pairs.len(), HEAVY, |k| find.pair(pairs[k].0 as usize, pairs[k].1 as usize));
@@ -132,8 +94,8 @@ impl ClothDetector {
     }
 
     /// The primitives of every patch at positions `x`. Those with a `stale` node are searched.
-    fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<Part> {
-        let part = |patch: &Patch| Part {
+    fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<PatchPrimitives> {
+        let part = |patch: &ClothPatch| PatchPrimitives {
             vertices: patch.nodes.iter().map(|&n| Primitive::new([n], x, stale)).collect(),
             edges: patch.edges.iter().map(|&e| Primitive::new(e, x, stale)).collect(),
             triangles: (patch.triangles.iter().map(|&t| Primitive::new(self.triangles[t as usize], x, stale)))
@@ -151,10 +113,10 @@ impl ClothDetector {
     }
 
     /// Pairs of patches whose boxes come within `reach`, every patch with itself, sorted.
-    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Shape>) {
+    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<PatchShape>) {
         let shapes = parallel::map(self.patches.len(), HEAVY, |k| self.measure(&self.patches[k], x, normals));
         let half = 0.5 * reach;
-        for (i, Shape { low, high, .. }) in shapes.iter().enumerate() {
+        for (i, PatchShape { low, high, .. }) in shapes.iter().enumerate() {
             let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
             self.bvh.insert_or_update_partially(aabb, i as u32, 0.0);
         }
@@ -172,7 +134,7 @@ impl ClothDetector {
         let normals = self.normals(x);
         let (pairs, _) = self.patch_pairs(x, &normals, 0.0);
         let parts = self.parts(x, &vec![true; x.len()]);
-        let near = |p: &Part, q: &Part| {
+        let near = |p: &PatchPrimitives, q: &PatchPrimitives| {
             let mut out = Vec::new();
             for e in &p.edges {
                 for t in &q.triangles {
@@ -195,7 +157,7 @@ impl ClothDetector {
         parallel::map(pairs.len(), HEAVY, |k| both(&pairs[k])).concat()
     }
 
-    fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3]) -> Shape {
+    fn measure(&self, patch: &ClothPatch, x: &[Vec3], normals: &[Vec3]) -> PatchShape {
         let mut low = Vec3::repeat(f64::INFINITY);
         let mut high = -low;
         let mut axis = Vec3::zeros();
@@ -213,11 +175,11 @@ impl ClothDetector {
         }
         let axis = axis.try_normalize(1e-9).unwrap_or_default();
         let cosine = patch.triangles.iter().map(|&t| axis.dot(&normals[t as usize])).fold(1.0, f64::min);
-        Shape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
+        PatchShape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
     }
 
     /// Whether two patches are one smooth sheet: they touch, their normals are alike, and neither is compressed.
-    fn smooth(&self, a: usize, b: usize, shapes: &[Shape]) -> bool {
+    fn smooth(&self, a: usize, b: usize, shapes: &[PatchShape]) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
             return false;
@@ -233,221 +195,12 @@ impl ClothDetector {
         // Both sides of a dart are near each other in the flat piece, and may slide over each other.
         p.beside.binary_search(&(b as u32)).is_ok()
     }
-
-    /// Whether nodes `p` and `q` (of two primitives) are sewn together or may pass through one another.
-    fn joined(&self, p: &[u32], q: &[u32]) -> bool {
-        let passing = |n: &u32| self.hood.passing.get(*n as usize).copied().unwrap_or(false);
-        if p.iter().any(passing) && q.iter().any(passing) {
-            return true;
-        }
-        p.iter().any(|&a| q.iter().any(|&b| self.hood.class[a as usize] == self.hood.class[b as usize]))
-    }
-}
-
-/// Shape of a patch at one position.
-struct Shape {
-    /// Low corner of its box.
-    low: Vec3,
-    high: Vec3,
-    /// Axis of the cone of its normals.
-    axis: Vec3,
-    spread: f64,
-    /// Whether an edge is much shorter than drawn.
-    shrunk: bool,
-}
-
-/// A vertex, an edge or a triangle of the cloth.
-struct Primitive<const N: usize> {
-    nodes: [u32; N],
-    low: Vec3,
-    high: Vec3,
-    /// Whether it has a stale node.
-    stale: bool,
-}
-
-impl<const N: usize> Primitive<N> {
-    fn new(nodes: [u32; N], x: &[Vec3], stale: &[bool]) -> Self {
-        let [low, high] = box_of(nodes.map(|n| x[n as usize]));
-        Self { nodes, low, high, stale: nodes.iter().any(|&n| stale[n as usize]) }
-    }
-}
-
-/// The primitives of a patch.
-struct Part {
-    vertices: Vec<Primitive<1>>,
-    edges: Vec<Primitive<2>>,
-    triangles: Vec<Primitive<3>>,
-}
-
-struct Search<'a> {
-    detector: &'a ClothDetector,
-    x: &'a [Vec3],
-    reach: f64,
-    /// By patches.
-    parts: Vec<Part>,
-}
-
-impl Search<'_> {
-    fn pair(&self, a: usize, b: usize) -> Vec<Contact<'static>> {
-        let (p, q) = (&self.parts[a], &self.parts[b]);
-        let mut out = Vec::new();
-        self.meet(&p.vertices, b, |_| &q.triangles, &mut out);
-        if a == b {
-            self.meet(&p.edges, b, |i| &p.edges[i + 1..], &mut out);
-        } else {
-            self.meet(&q.vertices, a, |_| &p.triangles, &mut out);
-            self.meet(&p.edges, b, |_| &q.edges, &mut out);
-        }
-        out
-    }
-
-    /// Adds the contacts of every primitive, the i-th of `above`, with those `below` it in patch number `other`.
-    fn meet<'p, const N: usize, const M: usize>(
-        &self,
-        above: &[Primitive<N>],
-        other: usize,
-        below: impl Fn(usize) -> &'p [Primitive<M>],
-        out: &mut Vec<Contact<'static>>,
-    ) {
-        let patch = &self.detector.shapes[other];
-        for (i, p) in above.iter().enumerate() {
-            let (low, high) = (p.low.add_scalar(-self.reach), p.high.add_scalar(self.reach));
-            // Primitives of two patches that are near each other mostly lie at the rims of both.
-            if apart(low, high, patch.low, patch.high) {
-                continue;
-            }
-            for q in below(i) {
-                let searched = p.stale || q.stale;
-                if !searched || apart(low, high, q.low, q.high) || self.detector.joined(&p.nodes, &q.nodes) {
-                    continue;
-                }
-                let mut nodes = [0; 4];
-                nodes[..N].copy_from_slice(&p.nodes);
-                nodes[N..].copy_from_slice(&q.nodes);
-                out.extend(Contact::within_cloth(nodes, N as u8, self.x, self.reach));
-            }
-        }
-    }
-}
-
-/// Halves a group of triangles across its longer side until it is small.
-fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
-    if group.len() <= PATCH {
-        leaves.push(group.to_vec());
-        return;
-    }
-    let [low, high] = box_of(group.iter().map(|&t| centers[t as usize]));
-    let axis = usize::from((high - low).y > (high - low).x);
-    group.sort_by(|&a, &b| centers[a as usize][axis].total_cmp(&centers[b as usize][axis]).then(a.cmp(&b)));
-    let (left, right) = group.split_at_mut(group.len() / 2);
-    split(left, centers, leaves);
-    split(right, centers, leaves);
-}
-
-/// Gives every node and every edge to the first patch that has it.
-fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) -> Vec<Patch> {
-    let topology = Topology::new(triangles);
-    let nodes = triangles.iter().flatten().max().map_or(0, |&n| n as usize + 1);
-    let mut node_owned = vec![false; nodes];
-    let mut edge_owned = vec![false; topology.edges.len()];
-    let mut patches = Vec::with_capacity(leaves.len());
-    for leaf in leaves {
-        let (nodes, edges, beside) = (Vec::new(), Vec::new(), Vec::new());
-        let mut patch = Patch { piece: 0, triangles: leaf, nodes, edges, beside, slit: false };
-        for &t in &patch.triangles {
-            let tri = triangles[t as usize];
-            patch.piece = piece[t as usize];
-            for k in 0..3 {
-                if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
-                    patch.nodes.push(tri[k]);
-                }
-                let ends = sorted_pair([tri[k], tri[(k + 1) % 3]]);
-                let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
-                if !std::mem::replace(&mut edge_owned[e], true) {
-                    patch.edges.push(ends);
-                }
-            }
-        }
-        patches.push(patch);
-    }
-    patches
-}
-
-/// The particles of every triangle, numbered. A particle is a node at one place of one flat piece. Two rims that meet
-/// in a seam have one node there, and two particles.
-fn particles(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<[u32; 3]> {
-    let mut number: HashMap<(u32, u32, [u64; 2]), u32> = HashMap::new();
-    let particle = |t: usize, k: usize| {
-        let at = flat[t][k];
-        (piece[t], triangles[t][k], [at.x.to_bits(), at.y.to_bits()])
-    };
-    let mut numbered = |t: usize, k: usize| {
-        let next = number.len() as u32;
-        *number.entry(particle(t, k)).or_insert(next)
-    };
-    (0..triangles.len()).map(|t| [numbered(t, 0), numbered(t, 1), numbered(t, 2)]).collect()
-}
-
-/// Connected parts of a group of triangles: both sides of a slit are near each other, but not connected.
-fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let shared = |s: u32, t: u32| {
-        let of = |t: u32| corners[t as usize];
-        of(s).iter().filter(|p| of(t).contains(p)).count()
-    };
-    let mut left = group.to_vec();
-    let mut out = Vec::new();
-    while let Some(first) = left.first().copied() {
-        let mut part = vec![first];
-        left.remove(0);
-        let mut at = 0;
-        while at < part.len() {
-            let (beside, others) = left.iter().partition(|t| shared(part[at], **t) == 2);
-            part.extend::<Vec<u32>>(beside);
-            (left, at) = (others, at + 1);
-        }
-        out.push(part);
-    }
-    out
-}
-
-/// Finds the patches that share particles. Patches that meet in a seam only (the ends of a band, the sides of a sleeve)
-/// may slide over each other.
-fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
-    let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
-    for (number, patch) in patches.iter().enumerate() {
-        for particle in patch.triangles.iter().flat_map(|&t| corners[t as usize]) {
-            let at = at.entry(particle).or_default();
-            if at.last() != Some(&(number as u32)) {
-                at.push(number as u32);
-            }
-        }
-    }
-    for patch in patches {
-        let of = |&t: &u32| corners[t as usize].into_iter().flat_map(|particle| at[&particle].iter().copied());
-        patch.beside = patch.triangles.iter().flat_map(of).collect();
-        patch.beside.sort_unstable();
-        patch.beside.dedup();
-    }
-}
-
-/// Finds the patches in which a slit ends.
-fn find_slits(patches: &mut [Patch], corners: &[[u32; 3]], flat: &[[Vec2; 3]]) {
-    let mut around: HashMap<u32, f64> = HashMap::new();
-    for (tri, at) in corners.iter().zip(flat) {
-        for k in 0..3 {
-            let (u, v) = (at[(k + 1) % 3] - at[k], at[(k + 2) % 3] - at[k]);
-            *around.entry(tri[k]).or_default() += u.angle(&v);
-        }
-    }
-    let topology = Topology::new(corners);
-    let ends: HashSet<u32> = topology.rim_edges().flat_map(|e| e.ends).filter(|p| around[p] >= SLIT).collect();
-    for patch in patches {
-        patch.slit = patch.triangles.iter().flat_map(|&t| corners[t as usize]).any(|p| ends.contains(&p));
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashMap;
+
     use super::*;
     use crate::contact::closest_on_triangle;
 

@@ -11,12 +11,12 @@ pub(super) struct Grid {
     /// `starts[c]..starts[c + 1]` in `items` are the primitives whose box touches cell `c`. Cells in a row along x
     /// follow one another.
     starts: Vec<u32>,
-    items: Vec<Item>,
+    items: Vec<CellItem>,
 }
 
 /// A primitive in one of its cells.
 #[derive(Clone, Copy, Debug, Default)]
-struct Item {
+struct CellItem {
     number: u32,
     /// Axes along which the cell is the first of the primitive's box: bit k for axis k.
     first: u8,
@@ -67,12 +67,12 @@ impl Grid {
         for c in 0..cells {
             counts[c + 1] += counts[c];
         }
-        let mut items = vec![Item::default(); counts[cells] as usize];
+        let mut items = vec![CellItem::default(); counts[cells] as usize];
         let mut fill = counts.clone();
         for (i, b) in boxes.iter().enumerate() {
             let extent = Extent::new(b.0, b.1);
             grid.for_cells(b, |c, first| {
-                items[fill[c] as usize] = Item { number: i as u32, first, extent };
+                items[fill[c] as usize] = CellItem { number: i as u32, first, extent };
                 fill[c] += 1;
             });
         }
@@ -99,7 +99,7 @@ impl Grid {
     }
 
     /// Visits the rows of cells along x that are in a box of cells: the number of the cell at x = 0, and of which other
-    /// axes, as in [`Item::first`], the row is not the first of the box.
+    /// axes, as in [`CellItem::first`], the row is not the first of the box.
     fn for_rows(&self, (from, to): Cells, mut visit: impl FnMut(usize, u8)) {
         for z in from[2]..=to[2] {
             for y in from[1]..=to[1] {
@@ -109,7 +109,7 @@ impl Grid {
         }
     }
 
-    /// Visits the cells that a box touches: number, and [`Item::first`] in it.
+    /// Visits the cells that a box touches: number, and [`CellItem::first`] in it.
     fn for_cells(&self, &(low, high): &(Vec3, Vec3), mut visit: impl FnMut(usize, u8)) {
         let Some(cells @ (from, to)) = self.cells(low, high) else { return };
         self.for_rows(cells, |row, later| {

@@ -18,20 +18,27 @@
 mod body;
 mod bounds;
 mod cloth;
+mod cloth_search;
 mod cut;
+mod features;
 mod grid;
+mod hollow;
+mod kept_apart;
 mod narrow;
+mod neighbourhood;
+mod patches;
 mod skin;
 mod swept;
 mod tangle;
 
 pub use body::{Collider, Nearest};
 pub use bounds::Bounds;
-pub use cloth::{ClothDetector, Neighbourhood};
+pub use cloth::ClothDetector;
 #[cfg(test)]
 pub(crate) use cut::tests::spike;
 use narrow::{closest_on_lines, on_plane};
 pub use narrow::{closest_on_segments, closest_on_triangle, nearest_on_surface};
+pub use neighbourhood::Neighbourhood;
 pub use skin::Skin;
 pub use swept::{Hit, swept_point_triangle};
 pub use tangle::Tangle;

@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::offset::Run;
+use super::run::SmoothRun;
 use crate::geometry::{Vec2, mirrored};
 use crate::pattern::Corner;
 
@@ -37,13 +37,13 @@ pub(super) struct Join {
 
 /// Wanted ending of an edge's allowance at a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wish {
+pub(super) struct CornerWish {
     pub(super) corner: Corner,
     /// Whether the file says so, rather than that being usual.
     pub(super) said: bool,
 }
 
-impl Wish {
+impl CornerWish {
     /// The default between sewn edges.
     pub(super) const MITRED: Self = Self { corner: Corner::Mitred, said: false };
 }
@@ -51,7 +51,7 @@ impl Wish {
 /// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance. Of
 /// two equal ones the one that is said counts, and else they make a mitre. `lines` are the cut lines away from the
 /// corner, beyond the runs where these are short.
-pub(super) fn join(a: &Run, b: &Run, wishes: [Wish; 2], lines: [&[Vec2]; 2]) -> Join {
+pub(super) fn join(a: &SmoothRun, b: &SmoothRun, wishes: [CornerWish; 2], lines: [&[Vec2]; 2]) -> Join {
     let special = match wishes.map(|wish| wish.corner) {
         [Corner::Mitred, Corner::Mitred] => None,
         [one, other] if one == other => match wishes.map(|wish| wish.said) {
@@ -67,12 +67,12 @@ pub(super) fn join(a: &Run, b: &Run, wishes: [Wish; 2], lines: [&[Vec2]; 2]) -> 
 }
 
 /// Two smooth runs of one edge, or of edges that are no further looked at.
-pub(super) fn join_plainly(a: &Run, b: &Run) -> Join {
+pub(super) fn join_plainly(a: &SmoothRun, b: &SmoothRun) -> Join {
     mitred(a, b)
 }
 
 /// A run as seen from its corner.
-struct Arm {
+struct CornerArm {
     /// Its cut line, the corner's end first.
     line: Vec<Vec2>,
     /// Away from the corner along the sewing line.
@@ -82,14 +82,14 @@ struct Arm {
     width: f64,
 }
 
-impl Arm {
-    fn before(run: &Run) -> Self {
+impl CornerArm {
+    fn before(run: &SmoothRun) -> Self {
         let t = run.ends[1];
         let line = run.moved.iter().rev().copied().collect();
         Self { line, along: -t, out: Vec2::new(t.y, -t.x), width: run.width }
     }
 
-    fn after(run: &Run) -> Self {
+    fn after(run: &SmoothRun) -> Self {
         let t = run.ends[0];
         Self { line: run.moved.clone(), along: t, out: Vec2::new(t.y, -t.x), width: run.width }
     }
@@ -100,28 +100,28 @@ impl Arm {
     }
 }
 
-fn corner_of(a: &Run) -> Vec2 {
+fn corner_of(a: &SmoothRun) -> Vec2 {
     a.base[a.base.len() - 1]
 }
 
-fn turn(a: &Run, b: &Run) -> f64 {
+fn turn(a: &SmoothRun, b: &SmoothRun) -> f64 {
     let (t, u) = (a.ends[1], b.ends[0]);
     t.perp(&u).atan2(t.dot(&u))
 }
 
 /// From the two arms' places back to those of the runs. Places on an arm count from the corner, its extension first.
-fn joined(a: &Run, on_a: At, between: Vec<Vec2>, on_b: At) -> Join {
+fn joined(a: &SmoothRun, on_a: At, between: Vec<Vec2>, on_b: At) -> Join {
     let last = (a.moved.len() - 1) as f64;
     Join { leave: (last - (on_a.0 - 1.0), on_a.1), between, enter: (on_b.0 - 1.0, on_b.1) }
 }
 
 /// Straight from the end of one run to the start of the next, over `between`.
-fn plain(a: &Run, b: &Run, between: Vec<Vec2>) -> Join {
+fn plain(a: &SmoothRun, b: &SmoothRun, between: Vec<Vec2>) -> Join {
     let last = a.moved.len() - 1;
     Join { leave: (last as f64, a.moved[last]), between, enter: (0.0, b.moved[0]) }
 }
 
-fn mitred(a: &Run, b: &Run) -> Join {
+fn mitred(a: &SmoothRun, b: &SmoothRun) -> Join {
     let (end, start) = (a.moved[a.moved.len() - 1], b.moved[0]);
     if (end - start).norm() < SAME {
         return plain(a, b, Vec::new());
@@ -145,12 +145,12 @@ fn mitred(a: &Run, b: &Run) -> Join {
 }
 
 /// Crossing of the cut lines at a corner that bends out, if it is near enough.
-fn pointed(a: &Run, b: &Run, turn: f64) -> Option<Join> {
+fn pointed(a: &SmoothRun, b: &SmoothRun, turn: f64) -> Option<Join> {
     if turn < STRAIGHT {
         return None;
     }
     let wide = a.width.max(b.width);
-    let [x, y] = [Arm::before(a), Arm::after(b)].map(|arm| arm.extended(MITRE_LIMIT * wide));
+    let [x, y] = [CornerArm::before(a), CornerArm::after(b)].map(|arm| arm.extended(MITRE_LIMIT * wide));
     let (on_a, on_b) = meeting(&x, &y, corner_of(a), Sense::Closing)?;
     // A step of the width along a nearly straight course is not spread over more than the width.
     let short = (on_a.1 - corner_of(a)).norm() <= MITRE_LIMIT * wide;
@@ -162,15 +162,15 @@ fn pointed(a: &Run, b: &Run, turn: f64) -> Option<Join> {
 /// up is inside the other. A line that stands clear of the other's allowance at the corner continues until it meets
 /// that. The other one begins inside the allowance and is not prolonged, because that would cut into the wider
 /// allowance.
-fn bent_in(a: &Run, b: &Run, turn: f64) -> Option<Join> {
+fn bent_in(a: &SmoothRun, b: &SmoothRun, turn: f64) -> Option<Join> {
     if turn > -STRAIGHT {
         return None;
     }
     let reach = MITRE_LIMIT * a.width.max(b.width);
-    let clear = |one: &Run, other: &Run| one.width * turn.cos() > other.width;
+    let clear = |one: &SmoothRun, other: &SmoothRun| one.width * turn.cos() > other.width;
     let [first_clear, second_clear] = [clear(a, b), clear(b, a)];
-    let x = Arm::before(a).extended(if first_clear { reach } else { 0.0 });
-    let y = Arm::after(b).extended(if second_clear { reach } else { 0.0 });
+    let x = CornerArm::before(a).extended(if first_clear { reach } else { 0.0 });
+    let y = CornerArm::after(b).extended(if second_clear { reach } else { 0.0 });
     let (on_a, on_b) = meeting(&x, &y, corner_of(a), Sense::Parting)?;
     let prolonged = first_clear || second_clear;
     let near = !prolonged || (on_a.1 - corner_of(a)).norm() <= reach;
@@ -178,11 +178,11 @@ fn bent_in(a: &Run, b: &Run, turn: f64) -> Option<Join> {
 }
 
 /// The special edge, the second or (`of_first`) the first, ends squared or folded. `None` where it cannot.
-fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool, lines: [&[Vec2]; 2]) -> Option<Join> {
+fn ended(a: &SmoothRun, b: &SmoothRun, kind: Corner, of_first: bool, lines: [&[Vec2]; 2]) -> Option<Join> {
     if turn(a, b) < LEAST_TURN {
         return None;
     }
-    let (mut before, mut after) = (Arm::before(a), Arm::after(b));
+    let (mut before, mut after) = (CornerArm::before(a), CornerArm::after(b));
     // Turned up, a deep hem lies beside more of the neighbours than the next edge.
     let other = if of_first { &mut after } else { &mut before };
     other.line = lines[usize::from(of_first)].to_vec();
@@ -227,8 +227,8 @@ fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool, lines: [&[Vec2]; 2]) ->
 /// Over the mouth of a dart between `a` and `b`, so that the allowance meets when the dart is sewn and pressed onto
 /// one of them: over the half of the intake next to that edge its cut line mirrored in the leg, over the other half
 /// the same mirrored in the dart's axis. Straight across where that gives nothing.
-pub(super) fn cap(a: &Run, b: &Run, tip: Vec2, onto_first: bool) -> Join {
-    let (before, after) = (Arm::before(a), Arm::after(b));
+pub(super) fn cap(a: &SmoothRun, b: &SmoothRun, tip: Vec2, onto_first: bool) -> Join {
+    let (before, after) = (CornerArm::before(a), CornerArm::after(b));
     let (first, second) = if onto_first { (&before, &after) } else { (&after, &before) };
     let mouths = [corner_of(a), b.base[0]];
     let (near, far) = if onto_first { (mouths[0], mouths[1]) } else { (mouths[1], mouths[0]) };
@@ -243,14 +243,20 @@ pub(super) fn cap(a: &Run, b: &Run, tip: Vec2, onto_first: bool) -> Join {
     }
 }
 
-fn folded_cap(x: &Arm, y: &Arm, [near, far]: [Vec2; 2], tip: Vec2, reach: f64) -> Option<(At, At, Vec<Vec2>)> {
+fn folded_cap(
+    x: &CornerArm,
+    y: &CornerArm,
+    [near, far]: [Vec2; 2],
+    tip: Vec2,
+    reach: f64,
+) -> Option<(At, At, Vec<Vec2>)> {
     let middle = (near + far) / 2.0;
     let axis = (middle - tip).try_normalize(SAME)?;
     let [one, other] = [near, far].map(|mouth| (mouth - tip).try_normalize(SAME));
     let (one, other) = (one?, other?);
     let (own, far_line) = (x.extended(reach), y.extended(reach));
     // Without allowance the line ends on the leg already.
-    let on_leg = |line: &[Vec2], arm: &Arm, mouth: Vec2, leg: Vec2| {
+    let on_leg = |line: &[Vec2], arm: &CornerArm, mouth: Vec2, leg: Vec2| {
         if arm.width < SAME {
             return Some((1.0, arm.line[0]));
         }

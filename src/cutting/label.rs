@@ -4,7 +4,7 @@ use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
 use super::{Lettering, Paper, SewKind};
 use crate::geometry::{Path, Vec2, encloses, sides_of};
-use crate::pattern::{Cut, LineKind};
+use crate::pattern::{CutKind, LineKind};
 
 /// Largest and smallest height of letters, metres: easily read at arm's length, and the least that home printers draw
 /// clearly.
@@ -66,14 +66,14 @@ impl Label {
 
 /// The words on a piece; each is written where there is room for it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Words {
+pub struct PieceWords {
     /// The lines of its label, the name first; the first two are never left out.
     pub(super) lines: Vec<String>,
     /// Seams, each with the index in [`Paper::sew`] of an edge that it takes.
     pub(super) seams: Vec<(usize, String)>,
 }
 
-impl Words {
+impl PieceWords {
     /// The name and the count, what the piece belongs to, the allowances of its edges, and the file's remark.
     pub(super) fn new(paper: &Paper, heading: Option<String>, widths: &[EdgeWidth], note: Option<&str>) -> Self {
         let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
@@ -85,12 +85,12 @@ impl Words {
 }
 
 /// How many are cut.
-pub(super) fn count(cut: &Cut) -> String {
+pub(super) fn count(cut: &CutKind) -> String {
     match cut {
-        Cut::One => "cut 1".to_owned(),
-        Cut::Pair => "cut 2 (left and right)".to_owned(),
-        Cut::Fold(_) => "cut 1 on the fold".to_owned(),
-        Cut::Count(n) => format!("cut {n}"),
+        CutKind::One => "cut 1".to_owned(),
+        CutKind::Pair => "cut 2 (left and right)".to_owned(),
+        CutKind::Fold(_) => "cut 1 on the fold".to_owned(),
+        CutKind::Count(n) => format!("cut {n}"),
     }
 }
 

@@ -38,19 +38,19 @@ pub struct Sheet {
     /// Upper left corner of the test square, if there is one; that in inches is to its right.
     pub square: Option<Vec2>,
     /// Stretches of cloth on which the papers lie, in a cutting plan.
-    pub cloth: Vec<Cloth>,
+    pub cloth: Vec<ClothLength>,
 }
 
 /// A stretch of cloth.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cloth {
+pub struct ClothLength {
     /// Its upper left corner.
     pub corner: Vec2,
     /// Width across, and length down.
     pub size: Vec2,
     /// Whether it is folded, with the fold on the left.
     pub folded: bool,
-    /// What it is, for a line above it.
+    /// Its title, for a line above it.
     pub text: String,
 }
 

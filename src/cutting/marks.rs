@@ -3,7 +3,7 @@
 use super::room::Room;
 use super::{Mark, MarkKind, NotchMark};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, Drawing, DrawnEdge, NotchKind};
+use crate::pattern::{CutKind, DrawnEdge, DrawnPiece, NotchKind};
 
 /// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
 const NOTCH: f64 = 0.006;
@@ -22,7 +22,7 @@ const GRAIN_BARB: f64 = 0.006;
 
 /// Notches from the sewing lines of a drawing out to where its cloth, of which `room` is, ends, `width` metres off
 /// where nothing else is drawn: over the mouth of a dart the cut line is raised.
-pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
+pub(super) fn notches(drawing: &DrawnPiece, room: &Room, width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
     let mut marks = Vec::new();
     let mut add = |edge: (usize, usize), at: f64, kind: NotchKind| {
         let DrawnEdge { name, path, .. } = drawing.edge(edge);
@@ -53,7 +53,7 @@ pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usiz
 
 /// The file's grain arrow, or one through the middle of the piece. On the cloth, of which `room` is, wherever the file
 /// has drawn it.
-pub(super) fn grain(drawing: &Drawing, room: &Room) -> [Vec2; 2] {
+pub(super) fn grain(drawing: &DrawnPiece, room: &Room) -> [Vec2; 2] {
     room.arrow(grain_as_drawn(drawing))
 }
 
@@ -76,7 +76,7 @@ fn barbs([tail, head]: [Vec2; 2], size: f64) -> [Vec2; 2] {
     [0.5, -0.5].map(|side| head + (across * side - along) * size)
 }
 
-fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {
+fn grain_as_drawn(drawing: &DrawnPiece) -> [Vec2; 2] {
     if let Some([tail, head]) = drawing.grain
         && (head - tail).norm() >= SHORTEST_GRAIN
     {
@@ -90,7 +90,7 @@ fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {
 }
 
 /// Arrows and inner lines.
-pub(super) fn marks(drawing: &Drawing, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
+pub(super) fn marks(drawing: &DrawnPiece, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
     let mut marks: Vec<Mark> = drawing
         .lines
         .iter()
@@ -99,7 +99,7 @@ pub(super) fn marks(drawing: &Drawing, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
     for fold in &drawing.folds {
         marks.extend(pleat(drawing, fold.edge, fold.from, fold.to));
     }
-    if let (Some(fold), Cut::Fold(name)) = (fold, &drawing.cut) {
+    if let (Some(fold), CutKind::Fold(name)) = (fold, &drawing.cut) {
         let path = bent_arrow(fold);
         marks.push(Mark { kind: MarkKind::Fold, name: name.clone(), path, line: None });
     }
@@ -108,7 +108,7 @@ pub(super) fn marks(drawing: &Drawing, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
 
 /// The two lines of a fold of a pleat, from the edge inwards, and the arrow from where the cloth is folded to where the
 /// fold comes to lie.
-fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mark> {
+fn pleat(drawing: &DrawnPiece, edge: (usize, usize), from: f64, to: f64) -> Vec<Mark> {
     let path = &drawing.edge(edge).path;
     let inward = |at: f64| {
         let t = path.tangent(at);
@@ -137,7 +137,7 @@ fn bent_arrow([from, to]: [Vec2; 2]) -> Path {
 }
 
 /// Tips of darts, ends and middle of fish-eyes, buttons.
-pub(super) fn drills(drawing: &Drawing) -> Vec<(String, Vec2)> {
+pub(super) fn drills(drawing: &DrawnPiece) -> Vec<(String, Vec2)> {
     let tip = |d: &crate::pattern::Dart| ("dart".to_owned(), drawing.rings[0][d.legs[0]].path.end());
     let mut drills: Vec<(String, Vec2)> = drawing.darts.iter().map(tip).collect();
     for &ring in &drawing.fish_eyes {

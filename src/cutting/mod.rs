@@ -14,15 +14,16 @@ mod offset;
 mod outline;
 mod plan;
 mod room;
+mod run;
 mod sewing;
 mod walls;
 mod whole;
 
-pub use label::{LETTER_WIDTH, Label, Words};
-pub use layout::{CLOTH_LETTERS, Cloth, INCH_SQUARE, Layout, SQUARE_GAP, Sheet, TEST_SQUARE, shelves};
+pub use label::{LETTER_WIDTH, Label, PieceWords};
+pub use layout::{CLOTH_LETTERS, ClothLength, INCH_SQUARE, Layout, SQUARE_GAP, Sheet, TEST_SQUARE, shelves};
 pub use marks::{arrow, grain_arrow};
 pub use outline::{labelled, papers};
-pub use plan::{Laid, Plan, PlanError, PlanOptions, plan_sheet, plans};
+pub use plan::{LaidPaper, Plan, PlanError, PlanOptions, plan_sheet, plans};
 pub use room::{Room, foot};
 pub use sewing::{SewingStep, sewing_order};
 
@@ -33,7 +34,7 @@ use crate::pattern::{Corner, LineKind, NotchKind, Side};
 
 /// Choices that the file does not make.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct CuttingOptions {
     /// Allowance of edges for which the file gives none, metres.
     pub allowance: f64,
     /// Pieces as they are cut: folds opened, both of a pair, every copy.
@@ -43,7 +44,7 @@ pub struct Options {
 /// The usual allowance of metric patterns, metres.
 pub const DEFAULT_ALLOWANCE: f64 = 0.010;
 
-impl Default for Options {
+impl Default for CuttingOptions {
     fn default() -> Self {
         Self { allowance: DEFAULT_ALLOWANCE, whole: false }
     }
@@ -93,7 +94,7 @@ pub struct Paper {
     /// Points to be marked through all layers: ends of darts, buttons.
     pub drills: Vec<(String, Vec2)>,
     /// The words on it.
-    pub words: Words,
+    pub words: PieceWords,
     /// Its lettering.
     pub texts: Vec<Lettering>,
     /// Allowances of holes for which these are too small.

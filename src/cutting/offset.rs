@@ -1,8 +1,9 @@
 //! The cut line of a ring of edges: each edge's sewing line moved out by its own allowance, joined at the corners.
 
 use super::clean::{grown, shrunk};
-use super::corner::{Join, Wish, cap, join, join_plainly};
-use crate::geometry::{Path, Station, Vec2, mirrored};
+use super::corner::{CornerWish, Join, cap, join, join_plainly};
+use super::run::SmoothRun;
+use crate::geometry::{Path, Vec2, mirrored};
 
 /// Chords of cut lines leave the true line by at most this much (metres): a fifth of the hundredth of a millimetre that
 /// paper patterns are exact to, so that rounding fits in beside it.
@@ -15,12 +16,12 @@ pub(super) struct Border<'a> {
     /// Metres.
     pub(super) width: f64,
     /// Its ending at corners.
-    pub(super) wish: Wish,
+    pub(super) wish: CornerWish,
 }
 
 /// Transition between an edge and the next.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Between {
+pub(super) enum EdgeTransition {
     /// A corner of the piece.
     Corner,
     /// A dart, whose mouth lies between the two edges.
@@ -32,63 +33,25 @@ pub(super) enum Between {
     },
 }
 
-/// A smooth stretch of a ring, walked with the cloth on the right.
-#[derive(Clone, Debug)]
-pub(super) struct Run {
-    /// The sewing line.
-    pub(super) base: Vec<Vec2>,
-    /// The same, moved out.
-    pub(super) moved: Vec<Vec2>,
-    /// Tangents at its ends, along the walk.
-    pub(super) ends: [Vec2; 2],
-    pub(super) width: f64,
-}
-
-impl Run {
-    fn new(stations: &[Station], width: f64) -> Self {
-        // The cloth is on the right of the walk (y down), so the allowance is on its left.
-        let out = |s: &Station| s.at + width * Vec2::new(s.tangent.y, -s.tangent.x);
-        let tangent = |s: Option<&Station>| s.map_or_else(Vec2::zeros, |s| s.tangent);
-        Self {
-            base: stations.iter().map(|s| s.at).collect(),
-            moved: stations.iter().map(out).collect(),
-            ends: [tangent(stations.first()), tangent(stations.last())],
-            width,
-        }
-    }
-
-    /// Its image in the line through `on` along `along`, walked the other way: the cloth stays on the right.
-    fn image(&self, [on, along]: [Vec2; 2]) -> Self {
-        let points = |line: &[Vec2]| line.iter().rev().map(|&p| mirrored(p, on, along)).collect();
-        let [first, last] = self.ends.map(|t| -mirrored(t, Vec2::zeros(), along));
-        Self { base: points(&self.base), moved: points(&self.moved), ends: [last, first], width: self.width }
-    }
-
-    /// The stretch as it is sewn: without allowance.
-    fn sewn(&self) -> Self {
-        Self { moved: self.base.clone(), width: 0.0, ..self.clone() }
-    }
-}
-
 /// A ring as smooth runs with their joins.
-struct Ring {
-    runs: Vec<Run>,
-    joins: Vec<Joint>,
+struct RunRing {
+    runs: Vec<SmoothRun>,
+    joins: Vec<RunJoint>,
 }
 
 #[derive(Clone, Copy)]
-enum Joint {
+enum RunJoint {
     /// Within an edge.
     Smooth,
     /// Between two edges, as the first and the second wish it.
-    Corner([Wish; 2]),
+    Corner([CornerWish; 2]),
     Dart {
         tip: Vec2,
         onto_first: bool,
     },
 }
 
-impl Joint {
+impl RunJoint {
     /// Its image in a line, with the two edges changed about.
     fn image(self, [on, along]: [Vec2; 2]) -> Self {
         match self {
@@ -99,19 +62,19 @@ impl Joint {
     }
 }
 
-impl Ring {
-    fn new(borders: &[Border], between: &[Between]) -> Self {
+impl RunRing {
+    fn new(borders: &[Border], between: &[EdgeTransition]) -> Self {
         let mut ring = Self { runs: Vec::new(), joins: Vec::new() };
         for (i, border) in borders.iter().enumerate() {
             let next = &borders[(i + 1) % borders.len()];
             for stations in border.path.stations(border.width, CHORD_ERROR) {
-                ring.runs.push(Run::new(&stations, border.width));
-                ring.joins.push(Joint::Smooth);
+                ring.runs.push(SmoothRun::new(&stations, border.width));
+                ring.joins.push(RunJoint::Smooth);
             }
             if let Some(last) = ring.joins.last_mut() {
                 *last = match between[i] {
-                    Between::Corner => Joint::Corner([border.wish, next.wish]),
-                    Between::Dart { tip, onto_first } => Joint::Dart { tip, onto_first },
+                    EdgeTransition::Corner => RunJoint::Corner([border.wish, next.wish]),
+                    EdgeTransition::Dart { tip, onto_first } => RunJoint::Dart { tip, onto_first },
                 };
             }
         }
@@ -119,29 +82,29 @@ impl Ring {
     }
 
     /// The ring of the whole piece whose half has these edges: all but the fold, from its end round to its start.
-    fn unfolded(borders: &[Border], between: &[Between], axis: [Vec2; 2]) -> Self {
+    fn unfolded(borders: &[Border], between: &[EdgeTransition], axis: [Vec2; 2]) -> Self {
         let mut ring = Self::new(borders, between);
         // An edge meets its own image at the fold: two equal wishes.
-        let at_fold = Joint::Corner([Wish::MITRED; 2]);
+        let at_fold = RunJoint::Corner([CornerWish::MITRED; 2]);
         ring.joins.pop();
-        let back: Vec<Joint> = ring.joins.iter().rev().map(|joint| joint.image(axis)).collect();
+        let back: Vec<RunJoint> = ring.joins.iter().rev().map(|joint| joint.image(axis)).collect();
         ring.joins.push(at_fold);
         ring.joins.extend(back);
         ring.joins.push(at_fold);
-        let images: Vec<Run> = ring.runs.iter().rev().map(|run| run.image(axis)).collect();
+        let images: Vec<SmoothRun> = ring.runs.iter().rev().map(|run| run.image(axis)).collect();
         ring.runs.extend(images);
         ring
     }
 
     fn sewn(&self) -> Self {
-        Self { runs: self.runs.iter().map(Run::sewn).collect(), joins: self.joins.clone() }
+        Self { runs: self.runs.iter().map(SmoothRun::sewn).collect(), joins: self.joins.clone() }
     }
 
     /// The cut line before the corner that ends run `i`, walked away from it, over the run and the one before that.
     fn line_before(&self, i: usize) -> Vec<Vec2> {
         let count = self.runs.len();
         let (own, before) = (&self.runs[i], (i + count - 1) % count);
-        if matches!(self.joins[before], Joint::Dart { .. }) || count < 3 {
+        if matches!(self.joins[before], RunJoint::Dart { .. }) || count < 3 {
             return own.moved.iter().rev().copied().collect();
         }
         let further = &self.runs[before];
@@ -159,7 +122,7 @@ impl Ring {
         let count = self.runs.len();
         let next = (i + 1) % count;
         let (own, further) = (&self.runs[next], &self.runs[(i + 2) % count]);
-        if matches!(self.joins[next], Joint::Dart { .. }) || count < 3 {
+        if matches!(self.joins[next], RunJoint::Dart { .. }) || count < 3 {
             return own.moved.clone();
         }
         let Join { leave, between, enter } = join_plainly(own, further);
@@ -178,9 +141,9 @@ impl Ring {
             .map(|i| {
                 let (a, b) = (&self.runs[i], &self.runs[(i + 1) % count]);
                 match self.joins[i] {
-                    Joint::Smooth => join_plainly(a, b),
-                    Joint::Corner(wishes) => join(a, b, wishes, [&self.line_before(i), &self.line_after(i)]),
-                    Joint::Dart { tip, onto_first } => cap(a, b, tip, onto_first),
+                    RunJoint::Smooth => join_plainly(a, b),
+                    RunJoint::Corner(wishes) => join(a, b, wishes, [&self.line_before(i), &self.line_after(i)]),
+                    RunJoint::Dart { tip, onto_first } => cap(a, b, tip, onto_first),
                 }
             })
             .collect();
@@ -199,30 +162,30 @@ impl Ring {
 
 /// The cut line round an outline (clockwise on screen): closed, never crossing itself, the outline inside it. More than
 /// one contour where an allowance closes round a bay of the piece: the outer one first.
-pub(super) fn around(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
-    let ring = Ring::new(borders, between);
+pub(super) fn around(borders: &[Border], between: &[EdgeTransition]) -> Vec<Vec<Vec2>> {
+    let ring = RunRing::new(borders, between);
     grown(&ring.contour(), &ring.sewn().contour())
 }
 
 /// The cut line of the whole piece of which an outline is the half that is drawn. `fold` is the edge on the fold. At
 /// the fold's ends the allowances of the two halves meet, which nothing on one half alone tells.
-pub(super) fn around_unfolded(borders: &[Border], between: &[Between], fold: usize) -> Vec<Vec<Vec2>> {
+pub(super) fn around_unfolded(borders: &[Border], between: &[EdgeTransition], fold: usize) -> Vec<Vec<Vec2>> {
     let path = borders[fold].path;
     let axis = [path.start(), (path.end() - path.start()).normalize()];
     let open = |count: usize| (1..count).map(move |k| (fold + k) % count);
     let edges: Vec<Border> = open(borders.len()).map(|i| borders[i].clone()).collect();
-    let joints: Vec<Between> = open(between.len()).map(|i| between[i]).collect();
-    let ring = Ring::unfolded(&edges, &joints, axis);
+    let joints: Vec<EdgeTransition> = open(between.len()).map(|i| between[i]).collect();
+    let ring = RunRing::unfolded(&edges, &joints, axis);
     grown(&ring.contour(), &ring.sewn().contour())
 }
 
 /// The sewing line of an outline with its darts closed and pressed, along which a seam is sewn.
-pub(super) fn sewn_mouths(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
-    let ring = Ring::new(borders, between).sewn();
+pub(super) fn sewn_mouths(borders: &[Border], between: &[EdgeTransition]) -> Vec<Vec<Vec2>> {
+    let ring = RunRing::new(borders, between).sewn();
     let count = ring.runs.len();
     let mut mouths = Vec::new();
     for i in 0..count {
-        if let Joint::Dart { tip, onto_first } = ring.joins[i] {
+        if let RunJoint::Dart { tip, onto_first } = ring.joins[i] {
             let join = cap(&ring.runs[i], &ring.runs[(i + 1) % count], tip, onto_first);
             let mut points = vec![join.leave.1];
             points.extend(join.between);
@@ -235,5 +198,5 @@ pub(super) fn sewn_mouths(borders: &[Border], between: &[Between]) -> Vec<Vec<Ve
 
 /// The cut lines of a hole (counter-clockwise on screen), smaller by its allowance. None if nothing is left to cut out.
 pub(super) fn within(borders: &[Border]) -> Vec<Vec<Vec2>> {
-    shrunk(&Ring::new(borders, &vec![Between::Corner; borders.len()]).contour())
+    shrunk(&RunRing::new(borders, &vec![EdgeTransition::Corner; borders.len()]).contour())
 }

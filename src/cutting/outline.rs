@@ -3,37 +3,38 @@
 use nalgebra::Matrix2;
 
 use super::clean::double_area;
-use super::corner::Wish;
-use super::label::{self, Label, Words};
+use super::corner::CornerWish;
+use super::label::{self, Label, PieceWords};
 use super::marks;
-use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
+use super::offset::{Border, EdgeTransition, around, around_unfolded, sewn_mouths, within};
 use super::room::Room;
 use super::whole;
-use super::{Narrowed, Options, Paper, SewKind, SewLine};
+use super::{CuttingOptions, Narrowed, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
-use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
+use crate::pattern::{Corner, CutKind, Dart, DrawnEdge, DrawnPiece, Side};
 
 /// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
 const LEAST_CUT: f64 = 1e-5;
 /// An allowance that does not fit into its hole is halved so often at most. Then the hole is cut on its sewing line.
 const HALVINGS: i32 = 6;
 
-/// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`Options::whole`].
-pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
+/// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with
+/// [`CuttingOptions::whole`].
+pub fn papers(drawings: &[DrawnPiece], options: &CuttingOptions) -> Vec<Paper> {
     laid_out(drawings, options, None)
 }
 
 /// As [`papers`], each with a line of what it belongs to, and its edges with the seams that take them.
-pub fn labelled(drawings: &[Drawing], options: &Options, label: &Label) -> Vec<Paper> {
+pub fn labelled(drawings: &[DrawnPiece], options: &CuttingOptions, label: &Label) -> Vec<Paper> {
     laid_out(drawings, options, Some(label))
 }
 
-fn laid_out(drawings: &[Drawing], options: &Options, label: Option<&Label>) -> Vec<Paper> {
+fn laid_out(drawings: &[DrawnPiece], options: &CuttingOptions, label: Option<&Label>) -> Vec<Paper> {
     drawings
         .iter()
         .enumerate()
         .flat_map(|(number, drawing)| {
-            let rule = Rule::new(drawing, options);
+            let rule = AllowanceRule::new(drawing, options);
             let drawn = paper(&rule);
             let papers = if options.whole { whole::as_cut(&drawn, drawing) } else { vec![drawn] };
             papers
@@ -50,15 +51,15 @@ fn laid_out(drawings: &[Drawing], options: &Options, label: Option<&Label>) -> V
 }
 
 /// Width and ends of an edge's allowance where the file does not say.
-struct Rule<'a> {
-    drawing: &'a Drawing,
-    options: &'a Options,
+struct AllowanceRule<'a> {
+    drawing: &'a DrawnPiece,
+    options: &'a CuttingOptions,
     /// The share of its allowance that each ring has room for.
     shares: Vec<f64>,
 }
 
-impl<'a> Rule<'a> {
-    fn new(drawing: &'a Drawing, options: &'a Options) -> Self {
+impl<'a> AllowanceRule<'a> {
+    fn new(drawing: &'a DrawnPiece, options: &'a CuttingOptions) -> Self {
         let mut rule = Self { drawing, options, shares: vec![1.0; drawing.rings.len()] };
         for ring in rule.holes() {
             rule.shares[ring] = rule.share(ring);
@@ -105,7 +106,7 @@ impl<'a> Rule<'a> {
 
     fn border(&self, ring: usize, index: usize) -> Border<'_> {
         let edge = &self.drawing.rings[ring][index];
-        let wish = Wish { corner: Self::corner(edge), said: edge.allowance.corner.is_some() };
+        let wish = CornerWish { corner: Self::corner(edge), said: edge.allowance.corner.is_some() };
         Border { path: &edge.path, width: self.width(ring, index), wish }
     }
 
@@ -137,7 +138,7 @@ fn upright(paper: &Paper) -> Paper {
     paper.mapped(Matrix2::new(-up.y, up.x, -up.x, -up.y), Vec2::zeros())
 }
 
-fn paper(rule: &Rule) -> Paper {
+fn paper(rule: &AllowanceRule) -> Paper {
     let drawing = rule.drawing;
     let (borders, between) = outline_borders(rule);
     let (mut cut, fold) = outline_cut(drawing, &borders, &between);
@@ -145,9 +146,9 @@ fn paper(rule: &Rule) -> Paper {
         cut.extend(within(&rule.borders(ring)));
     }
     let (quantity, mirrored) = match drawing.cut {
-        Cut::One | Cut::Fold(_) => (1, false),
-        Cut::Pair => (2, true),
-        Cut::Count(n) => (n, false),
+        CutKind::One | CutKind::Fold(_) => (1, false),
+        CutKind::Pair => (2, true),
+        CutKind::Count(n) => (n, false),
     };
     let mouths = sewn_mouths(&borders, &between);
     let room = Room { contours: cut.clone(), walls: Vec::new() };
@@ -158,7 +159,7 @@ fn paper(rule: &Rule) -> Paper {
         count: label::count(&drawing.cut),
         quantity,
         mirrored,
-        drawn: matches!(drawing.cut, Cut::Pair | Cut::Fold(_)).then_some(drawing.drawn),
+        drawn: matches!(drawing.cut, CutKind::Pair | CutKind::Fold(_)).then_some(drawing.drawn),
         fabric: drawing.fabric.clone(),
         cloth: drawing.cloth.clone(),
         cut,
@@ -168,14 +169,18 @@ fn paper(rule: &Rule) -> Paper {
         grain,
         marks: marks::marks(drawing, fold),
         drills: marks::drills(drawing),
-        words: Words::default(),
+        words: PieceWords::default(),
         texts: Vec::new(),
         narrowed: rule.narrowed(),
     }
 }
 
 /// The outline's cut lines. Of a piece on the fold their half, and the stretch of the fold that the cloth lies on.
-fn outline_cut(drawing: &Drawing, borders: &[Border], between: &[Between]) -> (Vec<Vec<Vec2>>, Option<[Vec2; 2]>) {
+fn outline_cut(
+    drawing: &DrawnPiece,
+    borders: &[Border],
+    between: &[EdgeTransition],
+) -> (Vec<Vec<Vec2>>, Option<[Vec2; 2]>) {
     let Some(fold) = drawing.fold else { return (around(borders, between), None) };
     let place = (0..fold).filter(|&i| !drawing.is_leg(i)).count();
     let path = borders[place].path;
@@ -188,20 +193,20 @@ fn outline_cut(drawing: &Drawing, borders: &[Border], between: &[Between]) -> (V
 }
 
 /// The outline without the legs of its darts.
-fn outline_borders<'a>(rule: &'a Rule) -> (Vec<Border<'a>>, Vec<Between>) {
+fn outline_borders<'a>(rule: &'a AllowanceRule) -> (Vec<Border<'a>>, Vec<EdgeTransition>) {
     let drawing = rule.drawing;
     let count = drawing.rings[0].len();
     let (mut borders, mut between) = (Vec::new(), Vec::new());
     for i in (0..count).filter(|&i| !drawing.is_leg(i)) {
         borders.push(rule.border(0, i));
         let dart = drawing.darts.iter().find(|d| d.legs.contains(&((i + 1) % count)));
-        between.push(dart.map_or(Between::Corner, |dart| pressed(drawing, *dart)));
+        between.push(dart.map_or(EdgeTransition::Corner, |dart| pressed(drawing, *dart)));
     }
     (borders, between)
 }
 
 /// Upright darts are pressed towards the middle of the body, lying ones down.
-fn pressed(drawing: &Drawing, dart: Dart) -> Between {
+fn pressed(drawing: &DrawnPiece, dart: Dart) -> EdgeTransition {
     let [one, other] = dart.legs.map(|leg| &drawing.rings[0][leg].path);
     let tip = one.end();
     let (near, far) = (one.start(), other.end());
@@ -213,14 +218,14 @@ fn pressed(drawing: &Drawing, dart: Dart) -> Between {
     } else {
         near.y >= far.y
     };
-    Between::Dart { tip, onto_first }
+    EdgeTransition::Dart { tip, onto_first }
 }
 
 /// The x coordinate of the body's middle: the fold, the line in which a pair is mirrored, or the middle of the piece.
-fn centre(drawing: &Drawing) -> f64 {
+fn centre(drawing: &DrawnPiece) -> f64 {
     match (drawing.fold, &drawing.cut) {
         (Some(fold), _) => drawing.rings[0][fold].path.start().x,
-        (None, Cut::Pair) => 0.0,
+        (None, CutKind::Pair) => 0.0,
         _ => {
             let [low, high] = range_of(drawing.rings[0].iter().map(|e| e.path.start().x));
             (low + high) / 2.0
@@ -228,7 +233,7 @@ fn centre(drawing: &Drawing) -> f64 {
     }
 }
 
-fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
+fn sew_lines(drawing: &DrawnPiece, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     let mut lines = Vec::new();
     for (r, ring) in drawing.rings.iter().enumerate() {
         for (i, edge) in ring.iter().enumerate() {
@@ -255,7 +260,7 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
 }
 
 /// The words on a paper: with a `heading`, also the seams of its edges.
-fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
+fn words(paper: &Paper, rule: &AllowanceRule, heading: Option<String>) -> PieceWords {
     let drawing = rule.drawing;
     let width = |(r, i): (usize, usize)| {
         let edge = &drawing.rings[r][i];
@@ -265,17 +270,12 @@ fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
     let holes = rule.hole_edges().map(width).filter(|w| w.width > 0.0);
     let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes).collect();
     let seams = |name: &str| {
-        let named = drawing.rings.iter().flatten().find(|edge| is_of(name, &edge.name));
+        let named = drawing.rings.iter().flatten().find(|edge| Side::is_copy(name, &edge.name));
         named.map(|edge| edge.seams.join(", ")).filter(|seams| !seams.is_empty())
     };
     let with_seams = heading.is_some();
-    let mut words = Words::new(paper, heading, &widths, drawing.note.as_deref());
+    let mut words = PieceWords::new(paper, heading, &widths, drawing.note.as_deref());
     let sewn = paper.sew.iter().enumerate().filter(|_| with_seams);
     words.seams = sewn.filter_map(|(k, line)| Some((k, seams(&line.name)?))).collect();
     words
-}
-
-/// Whether a line belongs to an edge: it has its name, or that with the side of an opened piece.
-fn is_of(line: &str, edge: &str) -> bool {
-    line.strip_prefix(edge).is_some_and(|rest| ["", ".L", ".R"].contains(&rest))
 }

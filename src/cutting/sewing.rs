@@ -1,7 +1,7 @@
 //! The order in which a garment's seams are sewn.
 
 use crate::geometry::{MM, Vec2};
-use crate::pattern::{Garment, Give, Seam, SeamKind, Span};
+use crate::pattern::{Garment, Give, Seam, SeamKind, Side, Span};
 
 /// Ends of edges nearer than this (metres) are one point of a piece.
 const SAME: f64 = 1e-6;
@@ -53,10 +53,10 @@ pub fn sewing_order(garment: &Garment) -> Vec<SewingStep> {
 fn groups(garment: &Garment) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, seam) in garment.seams.iter().enumerate() {
-        let name = stem(&seam.name);
+        let name = Side::split(&seam.name).0;
         let own = groups.iter_mut().find(|g| {
             let first = &garment.seams[g[0]];
-            stem(&first.name) == name && first.stage == seam.stage
+            Side::split(&first.name).0 == name && first.stage == seam.stage
         });
         match own {
             Some(group) => group.push(k),
@@ -66,14 +66,9 @@ fn groups(garment: &Garment) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A name without the side at its end.
-fn stem(name: &str) -> &str {
-    name.strip_suffix(".L").or_else(|| name.strip_suffix(".R")).unwrap_or(name)
-}
-
 /// The groups that must be sewn before `group`: those that close a joint of one of its chains.
 fn needs(garment: &Garment, groups: &[Vec<usize>], group: usize) -> Vec<usize> {
-    let joints: Vec<[Point; 2]> = groups[group].iter().flat_map(|&k| joints(garment, &garment.seams[k])).collect();
+    let joints: Vec<[SeamPoint; 2]> = groups[group].iter().flat_map(|&k| joints(garment, &garment.seams[k])).collect();
     let closes = |other: &usize| {
         let ends = groups[*other].iter().flat_map(|&k| ends(garment, &garment.seams[k]));
         ends.into_iter().any(|[a, b]| joints.iter().any(|[c, d]| a.is(c) && b.is(d) || a.is(d) && b.is(c)))
@@ -83,12 +78,12 @@ fn needs(garment: &Garment, groups: &[Vec<usize>], group: usize) -> Vec<usize> {
 
 /// A point on the rim of a piece.
 #[derive(Clone, Copy, Debug)]
-struct Point {
+struct SeamPoint {
     piece: usize,
     at: Vec2,
 }
 
-impl Point {
+impl SeamPoint {
     /// Where the walk along a span begins (or, `at_end`, ends).
     fn new(garment: &Garment, span: &Span, at_end: bool) -> Self {
         let edge = &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index];
@@ -101,21 +96,22 @@ impl Point {
 }
 
 /// Where the edges of a seam's chains follow one another, the last one by the first if the chain is a ring.
-fn joints(garment: &Garment, seam: &Seam) -> Vec<[Point; 2]> {
+fn joints(garment: &Garment, seam: &Seam) -> Vec<[SeamPoint; 2]> {
     let of_chain = |chain: &[Span]| {
         let next = chain.iter().cycle().skip(1);
-        let pairs = chain.iter().zip(next).map(|(a, b)| [Point::new(garment, a, true), Point::new(garment, b, false)]);
+        let pairs =
+            chain.iter().zip(next).map(|(a, b)| [SeamPoint::new(garment, a, true), SeamPoint::new(garment, b, false)]);
         pairs.filter(|[a, b]| !a.is(b)).collect::<Vec<_>>()
     };
     [of_chain(&seam.a), of_chain(&seam.b)].concat()
 }
 
 /// The points that a seam brings together at its ends.
-fn ends(garment: &Garment, seam: &Seam) -> Vec<[Point; 2]> {
+fn ends(garment: &Garment, seam: &Seam) -> Vec<[SeamPoint; 2]> {
     let (Some(a), Some(b)) = (seam.a.first(), seam.b.first()) else { return Vec::new() };
     let (Some(last_a), Some(last_b)) = (seam.a.last(), seam.b.last()) else { return Vec::new() };
-    let start = [a, b].map(|span| Point::new(garment, span, false));
-    let end = [last_a, last_b].map(|span| Point::new(garment, span, true));
+    let start = [a, b].map(|span| SeamPoint::new(garment, span, false));
+    let end = [last_a, last_b].map(|span| SeamPoint::new(garment, span, true));
     vec![start, end]
 }
 
@@ -132,10 +128,10 @@ fn step(garment: &Garment, group: &[usize]) -> SewingStep {
         }
         names
     };
-    let has = |side: &str| group.iter().any(|&k| garment.seams[k].name.ends_with(side));
-    let name = stem(&seam.name).to_owned();
+    let has = |side: Side| group.iter().any(|&k| Side::split(&garment.seams[k].name).1 == Some(side));
+    let name = Side::split(&seam.name).0.to_owned();
     let give = give(seam.give);
-    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both: has(".L") && has(".R") }
+    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both: has(Side::Left) && has(Side::Right) }
 }
 
 fn give(give: Give) -> String {

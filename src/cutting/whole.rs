@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 use super::{Mark, MarkKind, NotchMark, Paper, SewLine};
 use crate::geometry::Vec2;
-use crate::pattern::{Cut, Drawing};
+use crate::pattern::{CutKind, DrawnPiece};
 
 /// A point within this (metres) of the fold's line is on it.
 const ON_FOLD: f64 = 1e-6;
@@ -47,7 +47,7 @@ fn with_crossings(contour: &[Vec2], aside: impl Fn(&Vec2) -> f64) -> Vec<Vec2> {
 }
 
 /// The papers of one drawing, each cut once. Lettering is not carried over.
-pub(super) fn as_cut(paper: &Paper, drawing: &Drawing) -> Vec<Paper> {
+pub(super) fn as_cut(paper: &Paper, drawing: &DrawnPiece) -> Vec<Paper> {
     let named = |name: String, of: &Paper| Paper {
         name,
         count: "cut 1".to_owned(),
@@ -57,18 +57,18 @@ pub(super) fn as_cut(paper: &Paper, drawing: &Drawing) -> Vec<Paper> {
         ..of.clone()
     };
     match &drawing.cut {
-        Cut::One => vec![named(paper.name.clone(), paper)],
-        Cut::Count(n) => (1..=*n).map(|k| named(format!("{}.{k}", paper.name), paper)).collect(),
-        Cut::Pair => {
+        CutKind::One => vec![named(paper.name.clone(), paper)],
+        CutKind::Count(n) => (1..=*n).map(|k| named(format!("{}.{k}", paper.name), paper)).collect(),
+        CutKind::Pair => {
             let other = paper.mapped(Matrix2::new(-1.0, 0.0, 0.0, 1.0), Vec2::zeros());
-            let sided = |p: &Paper, side: crate::pattern::Side| named(format!("{}.{}", p.name, side.letter()), p);
+            let sided = |p: &Paper, side: crate::pattern::Side| named(format!("{}{}", p.name, side.suffix()), p);
             vec![sided(paper, drawing.drawn), sided(&other, drawing.drawn.other())]
         }
-        Cut::Fold(_) => vec![named(paper.name.clone(), &unfolded(paper, drawing))],
+        CutKind::Fold(_) => vec![named(paper.name.clone(), &unfolded(paper, drawing))],
     }
 }
 
-fn unfolded(paper: &Paper, drawing: &Drawing) -> Paper {
+fn unfolded(paper: &Paper, drawing: &DrawnPiece) -> Paper {
     let Some([from, to]) = paper.fold else { return paper.clone() };
     let along = (to - from).normalize();
     let linear = 2.0 * along * along.transpose() - Matrix2::identity();

@@ -3,14 +3,14 @@
 use super::contour::{COARSE, Contour, NEAR, half_way};
 use super::fish_eyes::sides;
 use super::follow::follows;
-use super::frames::{Sheet, Surroundings};
+use super::frames::{DrawingFrame, SheetLine};
 use super::holes::holes_of;
 use super::joined::{beyond_seam, nearly_closed, unclosed};
 use super::said::{Said, said};
 use super::sizes::{are_sizes, sizes};
 use super::sorted::Sorted;
 use super::trimmed::{parts_within, trimmed};
-use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
+use super::{Drawing, ImportedNotch, InnerLine, Remark, Role, Stroke, ToldNotch, Traced};
 use crate::geometry::{Path, Vec2};
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -107,8 +107,8 @@ impl Patterns {
     /// Contours without duplicates, parts of the sheet and lettering, which are listed in `left_out`.
     fn new(contours: Vec<Contour>, remarks: &[Remark], sheet: Option<Vec2>, left_out: &mut Vec<String>) -> Self {
         let contours = without_doubles(contours, left_out);
-        let surroundings = Surroundings { contours: &contours, remarks, sheet, smallest: SMALLEST_PIECE };
-        let of_sheet: Vec<Option<Sheet>> = (0..contours.len()).map(|k| surroundings.of_sheet(k)).collect();
+        let surroundings = DrawingFrame { contours: &contours, remarks, sheet, smallest: SMALLEST_PIECE };
+        let of_sheet: Vec<Option<SheetLine>> = (0..contours.len()).map(|k| surroundings.of_sheet(k)).collect();
         for (contour, what) in contours.iter().zip(&of_sheet) {
             left_out.extend(what.map(|what| {
                 let name = contour.name.as_ref().map_or_else(String::new, |name| format!(" ('{name}')"));
@@ -263,7 +263,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<O
                 beyond.push(contour.name.clone());
             }
             let name = contour.own.clone();
-            traced.lines.extend(parts.into_iter().map(|path| Inner { name: name.clone(), path, kind: None }));
+            traced.lines.extend(parts.into_iter().map(|path| InnerLine { name: name.clone(), path, kind: None }));
         }
     }
     traced.holes = holes_of(&holes);
@@ -296,7 +296,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<O
             }
             // FreeSewing draws the mouths of darts so.
             _ if !surface.covers(middle) => beyond.push(stroke.name.clone()),
-            _ => traced.lines.push(Inner {
+            _ => traced.lines.push(InnerLine {
                 name: stroke.name.clone(),
                 path: trimmed(&stroke.path, |p| surface.covers(p)),
                 kind: stroke.kind.clone(),
@@ -328,13 +328,13 @@ fn middle(stroke: &Stroke) -> Vec2 {
 }
 
 /// A notch with its meaning if the file tells it. Then one of its points is on the sewing line of its edge.
-fn notch(stroke: &Stroke, edges: &[(Option<String>, Path)], outlines: &[&Path]) -> Notch {
+fn notch(stroke: &Stroke, edges: &[(Option<String>, Path)], outlines: &[&Path]) -> ImportedNotch {
     let Stroke { path, notch, .. } = stroke;
     let at = match notch {
         Some(told) => sewn_point(path, told, edges),
         None => nearest_end([path.start(), path.end()], outlines),
     };
-    Notch { at, told: notch.clone() }
+    ImportedNotch { at, told: notch.clone() }
 }
 
 /// Of the points of a notch's mark the one on its edge, or on any where that is not drawn.

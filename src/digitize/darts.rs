@@ -1,6 +1,6 @@
 //! Darts on edges: legs out of an outline and into a garment file.
 
-use super::edges::{Edge, nearest_edge};
+use super::edges::{FileEdge, nearest_edge};
 use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
 
@@ -12,16 +12,16 @@ type Named = (Option<String>, Path);
 
 /// A dart whose legs were taken out of an outline.
 #[derive(Clone, Debug)]
-pub(super) struct Wedge {
+pub(super) struct ClosedDart {
     pub(super) name: String,
     /// Start and end of its mouth.
     mouth: [Vec2; 2],
     pub(super) tip: Vec2,
 }
 
-impl Wedge {
+impl ClosedDart {
     /// The edge that it opens, the middle of its mouth from there and its intake, metres.
-    pub(super) fn on<'e>(&self, edges: &'e [Edge]) -> Option<(&'e Edge, f64, f64)> {
+    pub(super) fn on<'e>(&self, edges: &'e [FileEdge]) -> Option<(&'e FileEdge, f64, f64)> {
         let edge = &edges[nearest_edge(edges, self.mouth)?];
         let [a, b] = self.mouth.map(|p| edge.path.nearest(p).0);
         Some((edge, (a + b) / 2.0, (b - a).abs()))
@@ -30,7 +30,7 @@ impl Wedge {
 
 /// An outline with its darts closed: of `waist`, `dart.a`, `dart.b`, `waist.2`, as garments name them, one edge `waist`
 /// is made that runs straight over the mouth.
-pub(super) fn closed(outline: &[Named]) -> (Vec<Named>, Vec<Wedge>) {
+pub(super) fn closed(outline: &[Named]) -> (Vec<Named>, Vec<ClosedDart>) {
     let count = outline.len();
     let is_leg = |i: usize| leg(&outline[i % count]).is_some();
     // Begun between two edges, so that no dart lies across the end.
@@ -66,12 +66,16 @@ fn leg((name, path): &Named) -> Option<(&str, char, Option<&str>)> {
 }
 
 /// The dart that two edges are the legs of.
-fn wedge(one: &Named, other: &Named) -> Option<Wedge> {
+fn wedge(one: &Named, other: &Named) -> Option<ClosedDart> {
     let ((dart, first, side), (same, second, other_side)) = (leg(one)?, leg(other)?);
     let alike = (one.1.length() - other.1.length()).abs() <= LEGS_APART;
     let name = side.map_or_else(|| dart.to_owned(), |side| format!("{dart}_{side}"));
     let mouth = [one.1.start(), other.1.end()];
-    (dart == same && side == other_side && first != second && alike).then(|| Wedge { name, mouth, tip: one.1.end() })
+    (dart == same && side == other_side && first != second && alike).then(|| ClosedDart {
+        name,
+        mouth,
+        tip: one.1.end(),
+    })
 }
 
 /// Whether two names are those of parts of one edge: `waist.L` and `waist.2.L`.

@@ -1,6 +1,6 @@
 //! An outline as named edges.
 
-use super::Notch;
+use super::ImportedNotch;
 use super::notches::{EdgeNotch, Notches};
 use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
@@ -18,7 +18,7 @@ const SHORTEST: f64 = 2.0 * SHORTEST_EDGE;
 
 /// An edge of the file to come.
 #[derive(Clone, Debug)]
-pub(super) struct Edge {
+pub(super) struct FileEdge {
     pub(super) name: String,
     pub(super) path: Path,
     /// Notches on it, from its start.
@@ -26,7 +26,7 @@ pub(super) struct Edge {
 }
 
 /// Number of the edge that two points together are nearest to.
-pub(super) fn nearest_edge(edges: &[Edge], points: [Vec2; 2]) -> Option<usize> {
+pub(super) fn nearest_edge(edges: &[FileEdge], points: [Vec2; 2]) -> Option<usize> {
     let off = |k: &usize| points.iter().map(|p| edges[*k].path.nearest(*p).1).sum::<f64>();
     (0..edges.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
@@ -36,7 +36,7 @@ type Unnamed = (Option<String>, Path, Vec<EdgeNotch>);
 
 /// Splits an outline at its corners and notches, and names unnamed edges: `a`, `b`, `c` … clockwise from the upper left
 /// corner. Edges with names stay as they are, so that a garment drawn by toile keeps its edges.
-pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Notch]) -> Vec<Edge> {
+pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[ImportedNotch]) -> Vec<FileEdge> {
     let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
     let mut turned: Vec<(Option<String>, Path)> = if clockwise {
         outline.to_vec()
@@ -142,7 +142,7 @@ fn split(path: &Path, corners: &[f64], notches: &[EdgeNotch]) -> Vec<(Path, Vec<
     parts.into_iter().map(at_end).collect()
 }
 
-fn named(edges: Vec<Unnamed>) -> Vec<Edge> {
+fn named(edges: Vec<Unnamed>) -> Vec<FileEdge> {
     let mut taken: Vec<String> = Vec::new();
     let mut next = 0;
     let mut out = Vec::new();
@@ -159,7 +159,7 @@ fn named(edges: Vec<Unnamed>) -> Vec<Edge> {
         let longer = smooth.length() / path.length();
         notches.iter_mut().for_each(|n| n.at *= longer);
         notches.sort_by(|a, b| a.at.total_cmp(&b.at));
-        out.push(Edge { name, path: smooth, notches });
+        out.push(FileEdge { name, path: smooth, notches });
     }
     out
 }

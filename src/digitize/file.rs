@@ -1,10 +1,11 @@
 //! The garment file of traced pieces.
 
-use super::darts::{Wedge, closed};
-use super::edges::{Edge, edges, nearest_edge};
-use super::fish_eyes::{FishEye, taken};
+use super::darts::{ClosedDart, closed};
+use super::edges::{FileEdge, edges, nearest_edge};
+use super::fish_eyes::taken;
 use super::folds::{fold_edge, merged, opened};
 use super::holes::Hole;
+use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;
@@ -12,7 +13,7 @@ use super::suggest::{Guess, Outline, Suggestion, suggest};
 use super::{Material, Traced};
 use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located,
+    AllowanceFile, AllowanceWidth, Corner, CutKind, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located,
     NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Spot, Value,
 };
 
@@ -65,7 +66,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         // The only fabric is that of every piece.
         file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
         let fold = fold_of(&file).map(str::to_owned);
-        let pair = file.cut.as_ref().is_some_and(|cut| cut.value == Cut::Pair);
+        let pair = file.cut.as_ref().is_some_and(|cut| cut.value == CutKind::Pair);
         let copies = copies(&file, piece.copies, &mut names, &mut notes);
         let allowances = edges.iter().map(|e| width_of(&file, &e.name)).collect();
         let warp =
@@ -153,7 +154,7 @@ fn fresh(name: &str, taken: &[String]) -> String {
     fresh
 }
 
-fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile, Vec<Edge>) {
+fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile, Vec<FileEdge>) {
     let (fish_eyes, piece) = taken(piece, ON_NOTCH, notes);
     let piece = &piece;
     let outline = match (&piece.cut, piece.sew.is_empty()) {
@@ -181,7 +182,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
             ));
         }
     }
-    let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
+    let cut = fold.map(CutKind::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());
     let holes = named_holes(&piece.holes, &edges);
     let file = PieceFile {
@@ -189,7 +190,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         like: None,
         fabric: None,
         allowance: whole.and_then(|line| allowance(&edges, &wedges, &holes, line, &cut, &piece.corners)),
-        drawn: piece.drawn.filter(|_| matches!(cut, Some(Cut::Pair | Cut::Fold(_)))).map(at_no_place),
+        drawn: piece.drawn.filter(|_| matches!(cut, Some(CutKind::Pair | CutKind::Fold(_)))).map(at_no_place),
         cut: cut.map(at_no_place),
         layer: None,
         grain: grain.map(|g| at_no_place(g.map(file_point))),
@@ -208,7 +209,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
 /// Writes into a piece what is guessed of it and not told, and says so.
 fn guessed(piece: &mut PieceFile, guess: Guess) -> Option<String> {
     let mut said = Vec::new();
-    let halves = piece.cut.as_ref().is_some_and(|cut| matches!(cut.value, Cut::Pair | Cut::Fold(_)));
+    let halves = piece.cut.as_ref().is_some_and(|cut| matches!(cut.value, CutKind::Pair | CutKind::Fold(_)));
     if let Some(side) = guess.drawn.filter(|_| halves) {
         said.push(format!("'drawn: {}'", side.letter()));
         piece.drawn = Some(at_no_place(side));
@@ -232,7 +233,7 @@ fn width_of(piece: &PieceFile, edge: &str) -> Option<f64> {
 /// The edge on the fold of the cloth, which nothing is sewn to.
 fn fold_of(piece: &PieceFile) -> Option<&str> {
     match &piece.cut.as_ref()?.value {
-        Cut::Fold(edge) => Some(edge),
+        CutKind::Fold(edge) => Some(edge),
         _ => None,
     }
 }
@@ -264,13 +265,13 @@ fn file_point(p: Vec2) -> [f64; 2] {
     [rounded(p.x * MM), rounded(p.y * MM)]
 }
 
-fn outline_file(edges: &[Edge]) -> OutlineFile {
+fn outline_file(edges: &[FileEdge]) -> OutlineFile {
     let start = edges.first().map_or([0.0; 2], |e| file_point(e.path.start()));
-    let edge = |e: &Edge| (at_no_place(e.name.clone()), at_no_place(e.path.to_svg(MM, false)));
+    let edge = |e: &FileEdge| (at_no_place(e.name.clone()), at_no_place(e.path.to_svg(MM, false)));
     OutlineFile { start: at_no_place(start), edges: edges.iter().map(edge).collect() }
 }
 
-fn notches(edges: &[Edge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
+fn notches(edges: &[FileEdge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
     let mut all = Vec::new();
     for edge in edges.iter().filter(|e| !e.notches.is_empty()) {
         // Never past the end: the file's numbers are rounded.
@@ -285,7 +286,7 @@ fn notches(edges: &[Edge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
 }
 
 /// The holes under their own names, or numbered, none named as an edge.
-fn named_holes<'a>(holes: &'a [Hole], edges: &[Edge]) -> Vec<(String, &'a Hole)> {
+fn named_holes<'a>(holes: &'a [Hole], edges: &[FileEdge]) -> Vec<(String, &'a Hole)> {
     let mut named: Vec<(String, &Hole)> = Vec::new();
     for (k, hole) in holes.iter().enumerate() {
         let own = hole.name.as_deref().map(word).filter(|w| is_usable(w));
@@ -309,7 +310,7 @@ fn millimetres(metres: f64) -> Located<Quantity> {
 }
 
 /// A dart that was closed, without the notches at its mouth, which it has by itself.
-fn dart(wedge: &Wedge, edges: &mut [Edge]) -> Option<DartFile> {
+fn dart(wedge: &ClosedDart, edges: &mut [FileEdge]) -> Option<DartFile> {
     let (edge, at, intake) = wedge.on(edges)?;
     let name = edge.name.clone();
     unnotch(edges, &name, [at - intake / 2.0, at + intake / 2.0]);
@@ -326,7 +327,7 @@ fn fish_eye(dart: &FishEye) -> DartFile {
 
 /// A knife pleat that is folded at the first point and brought to the second, without the notches there. (Box and
 /// inverted pleats are two of them.)
-fn pleat(ends: [Vec2; 2], edges: &mut [Edge]) -> Option<PleatFile> {
+fn pleat(ends: [Vec2; 2], edges: &mut [FileEdge]) -> Option<PleatFile> {
     let on = nearest_edge(edges, ends)?;
     let [fold, place] = ends.map(|p| edges[on].path.nearest(p).0);
     let depth = (place - fold).abs() / 2.0;
@@ -343,14 +344,14 @@ fn pleat(ends: [Vec2; 2], edges: &mut [Edge]) -> Option<PleatFile> {
 }
 
 /// Takes the notches at these places off an edge, if they are not told to be others.
-fn unnotch(edges: &mut [Edge], name: &str, places: [f64; 2]) {
+fn unnotch(edges: &mut [FileEdge], name: &str, places: [f64; 2]) {
     for edge in edges.iter_mut().filter(|e| e.name == name) {
         let is_there = |notch: &EdgeNotch| places.iter().any(|place| (notch.at - place).abs() <= ON_NOTCH);
         edge.notches.retain(|notch| !(notch.may_be_mouth && is_there(notch)));
     }
 }
 
-fn lines(piece: &Traced, wedges: &[Wedge]) -> Vec<LineFile> {
+fn lines(piece: &Traced, wedges: &[ClosedDart]) -> Vec<LineFile> {
     let mut taken: Vec<String> = Vec::new();
     let mut add = |stem: &str, path: &Path, kind: LineKind| {
         let mut name = stem.to_owned();
@@ -393,12 +394,12 @@ fn lines(piece: &Traced, wedges: &[Wedge]) -> Vec<LineFile> {
 fn written_fold(
     name: &str,
     count: usize,
-    edges: &[Edge],
+    edges: &[FileEdge],
     grain: Option<[Vec2; 2]>,
     notes: &mut Vec<String>,
 ) -> Option<String> {
     let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
-    let is_along = |e: &&Edge| {
+    let is_along = |e: &&FileEdge| {
         let along = (e.path.end() - e.path.start()).try_normalize(0.0);
         e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
     };
@@ -419,7 +420,7 @@ fn written_fold(
 }
 
 /// The longest stretch of an edge beside the mouths of its darts.
-fn clear_of_mouths(edge: &Edge, edges: &[Edge], wedges: &[Wedge]) -> [f64; 2] {
+fn clear_of_mouths(edge: &FileEdge, edges: &[FileEdge], wedges: &[ClosedDart]) -> [f64; 2] {
     let on_it = wedges.iter().filter_map(|w| w.on(edges)).filter(|(e, ..)| e.name == edge.name);
     let mut mouths: Vec<[f64; 2]> = on_it.map(|(_, at, intake)| [at - intake / 2.0, at + intake / 2.0]).collect();
     mouths.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -436,8 +437,8 @@ const SHORT: f64 = 5.0;
 
 /// The width that was meant where one was measured (millimetres) beside a bent or a short edge: that of the straight,
 /// long edges whose is nearly the same, of several the nearest.
-fn meant(edge: &Edge, width: f64, all: &[(&Edge, f64)]) -> f64 {
-    let is_sure = |e: &Edge, w: f64| e.path.is_straight() && e.path.length() * MM >= SHORT * w;
+fn meant(edge: &FileEdge, width: f64, all: &[(&FileEdge, f64)]) -> f64 {
+    let is_sure = |e: &FileEdge, w: f64| e.path.is_straight() && e.path.length() * MM >= SHORT * w;
     if is_sure(edge, width) {
         return width;
     }
@@ -447,16 +448,16 @@ fn meant(edge: &Edge, width: f64, all: &[(&Edge, f64)]) -> f64 {
 
 /// The distance of the cut line from every edge and hole, in tenths of a millimetre.
 fn allowance(
-    edges: &[Edge],
-    wedges: &[Wedge],
+    edges: &[FileEdge],
+    wedges: &[ClosedDart],
     holes: &[(String, &Hole)],
     cut: &Path,
-    how: &Option<Cut>,
+    how: &Option<CutKind>,
     corners: &[(String, Corner)],
 ) -> Option<AllowanceFile> {
-    let on_fold = |e: &Edge| matches!(how, Some(Cut::Fold(name)) if *name == e.name);
+    let on_fold = |e: &FileEdge| matches!(how, Some(CutKind::Fold(name)) if *name == e.name);
     let tenths = |metres: f64| (metres * 1e4).round() / 10.0;
-    let width = |e: &Edge| {
+    let width = |e: &FileEdge| {
         // Round the middle: near its ends the neighbours' cut lines, or that over a dart, may be nearer than its own.
         let [from, to] = clear_of_mouths(e, edges, wedges);
         let mut looks = LOOKS.map(|share| cut.nearest(e.path.point(from + (to - from) * share)).1);
@@ -467,7 +468,7 @@ fn allowance(
     let said = |number: f64, corner| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner });
     let corner = |edge: &str| corners.iter().find(|(name, _)| word(name) == edge).map(|(_, corner)| *corner);
     type Width<'a> = (&'a str, f64);
-    let measured: Vec<(&Edge, f64)> =
+    let measured: Vec<(&FileEdge, f64)> =
         edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e, width(e)?))).collect();
     let outline: Vec<Width> = measured.iter().map(|(e, w)| (e.name.as_str(), meant(e, *w, &measured))).collect();
     let cut_out = holes.iter().map(|(name, hole)| (name.as_str(), tenths(hole.allowance())));

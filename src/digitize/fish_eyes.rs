@@ -2,25 +2,13 @@
 
 use super::chain::MEET;
 use super::contour::Contour;
-use super::lozenge::Lozenge;
-use super::{Inner, Traced};
+use super::lozenge::{FishEye, Lozenge};
+use super::{InnerLine, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{FISH_EYE_EDGES, LineKind};
 
 /// As far as this (metres) numbers may be rounded that put it upright.
 const ROUNDED: f64 = 2e-5;
-
-/// A fish-eye dart, metres.
-#[derive(Clone, Debug)]
-pub(super) struct FishEye {
-    pub(super) name: String,
-    /// The middle of its widest line.
-    pub(super) at: Vec2,
-    pub(super) intake: f64,
-    /// Its length above that line and below.
-    pub(super) up: f64,
-    pub(super) down: f64,
-}
 
 impl FishEye {
     /// The one that four lines make, given from its upper tip round, if it stands upright.
@@ -64,10 +52,10 @@ fn edge(name: &str) -> Option<(String, usize)> {
 }
 
 /// The sides of a closed line as lines inside the piece, if they are named as those of a fish-eye.
-pub(super) fn sides(contour: &Contour) -> Option<Vec<Inner>> {
+pub(super) fn sides(contour: &Contour) -> Option<Vec<InnerLine>> {
     let side = |(name, path): &(Option<String>, Path)| {
         let name = name.clone().filter(|name| edge(name).is_some())?;
-        Some(Inner { name: Some(name), path: path.clone(), kind: Some(LineKind::Mark("dart".to_owned())) })
+        Some(InnerLine { name: Some(name), path: path.clone(), kind: Some(LineKind::Mark("dart".to_owned())) })
     };
     (contour.edges.len() == FISH_EYE_EDGES.len()).then(|| contour.edges.iter().map(side).collect()).flatten()
 }
@@ -101,8 +89,8 @@ pub(super) fn taken(piece: &Traced, near: f64, notes: &mut Vec<String>) -> (Vec<
 }
 
 /// The closed lines of which nothing is said that are fish-eye darts, and the other lines.
-fn lozenges(piece: &Traced, notes: &mut Vec<String>) -> (Vec<FishEye>, Vec<Inner>) {
-    let (mut found, mut rest): (Vec<FishEye>, Vec<Inner>) = (Vec::new(), Vec::new());
+fn lozenges(piece: &Traced, notes: &mut Vec<String>) -> (Vec<FishEye>, Vec<InnerLine>) {
+    let (mut found, mut rest): (Vec<FishEye>, Vec<InnerLine>) = (Vec::new(), Vec::new());
     for line in &piece.lines {
         let Some(lozenge) = Lozenge::of(&line.path).filter(|_| line.kind.is_none()) else {
             rest.push(line.clone());

@@ -3,9 +3,9 @@
 use nalgebra::Matrix2;
 
 use super::Traced;
-use super::edges::{Edge, edges};
+use super::edges::{FileEdge, edges};
 use super::holes::Hole;
-use super::{Inner, Notch};
+use super::{ImportedNotch, InnerLine};
 use crate::geometry::{Path, Vec2, mirrored};
 
 /// A fold's ends are so near to those of an edge (metres).
@@ -15,12 +15,12 @@ const NOTHING: f64 = 1e-8;
 
 /// A line in which a piece is mirrored.
 #[derive(Clone, Copy)]
-struct Axis {
+struct MirrorLine {
     from: Vec2,
     along: Vec2,
 }
 
-impl Axis {
+impl MirrorLine {
     fn new([from, to]: [Vec2; 2]) -> Option<Self> {
         Some(Self { from, along: (to - from).try_normalize(0.0)? })
     }
@@ -29,7 +29,7 @@ impl Axis {
         self.along.perp(&(p - self.from)).abs() <= ON_FOLD
     }
 
-    fn holds_edge(self, edge: &Edge) -> bool {
+    fn holds_edge(self, edge: &FileEdge) -> bool {
         edge.path.is_straight() && self.holds(edge.path.start()) && self.holds(edge.path.end())
     }
 
@@ -44,15 +44,15 @@ impl Axis {
 }
 
 /// The edges, those that follow each other on the fold as one.
-pub(super) fn merged(mut edges: Vec<Edge>, fold: Option<[Vec2; 2]>) -> Vec<Edge> {
-    let Some(axis) = fold.and_then(Axis::new) else { return edges };
+pub(super) fn merged(mut edges: Vec<FileEdge>, fold: Option<[Vec2; 2]>) -> Vec<FileEdge> {
+    let Some(axis) = fold.and_then(MirrorLine::new) else { return edges };
     let count = edges.len();
-    let on = |edges: &[Edge], k: usize| axis.holds_edge(&edges[k % count]);
+    let on = |edges: &[FileEdge], k: usize| axis.holds_edge(&edges[k % count]);
     // Begun where no part of the fold is cut in two.
     if let Some(begin) = (0..count).find(|&k| !(on(&edges, k) && on(&edges, k + count - 1))) {
         edges.rotate_left(begin);
     }
-    let mut out: Vec<Edge> = Vec::new();
+    let mut out: Vec<FileEdge> = Vec::new();
     for edge in edges {
         match out.last_mut() {
             Some(last) if axis.holds_edge(last) && axis.holds_edge(&edge) => {
@@ -72,9 +72,9 @@ pub(super) fn merged(mut edges: Vec<Edge>, fold: Option<[Vec2; 2]>) -> Vec<Edge>
 }
 
 /// The name of the edge that lies on a fold: the longest.
-pub(super) fn fold_edge(edges: &[Edge], fold: [Vec2; 2]) -> Option<String> {
-    let axis = Axis::new(fold)?;
-    let longest = |a: &&Edge, b: &&Edge| a.path.length().total_cmp(&b.path.length());
+pub(super) fn fold_edge(edges: &[FileEdge], fold: [Vec2; 2]) -> Option<String> {
+    let axis = MirrorLine::new(fold)?;
+    let longest = |a: &&FileEdge, b: &&FileEdge| a.path.length().total_cmp(&b.path.length());
     edges.iter().filter(|e| axis.holds_edge(e)).max_by(longest).map(|e| e.name.clone())
 }
 
@@ -82,7 +82,7 @@ pub(super) fn fold_edge(edges: &[Edge], fold: [Vec2; 2]) -> Option<String> {
 /// opening goes all round then, which no half says. `None` of other pieces.
 pub(super) fn opened(piece: &Traced) -> Option<Traced> {
     let fold = piece.mirror?;
-    let axis = Axis::new(fold)?;
+    let axis = MirrorLine::new(fold)?;
     let outline = match (&piece.cut, piece.sew.is_empty()) {
         (Some(cut), true) => vec![(None, cut.clone())],
         _ => piece.sew.clone(),
@@ -90,7 +90,7 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
     let mut ring = merged(edges(&outline, &[]), Some(fold));
     let first = ring.iter().position(|e| axis.holds_edge(e))?;
     ring.rotate_left(first);
-    let mut chains: Vec<Vec<Edge>> = Vec::new();
+    let mut chains: Vec<Vec<FileEdge>> = Vec::new();
     for edge in ring {
         if axis.holds_edge(&edge) {
             chains.push(Vec::new());
@@ -99,7 +99,7 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
         }
     }
     chains.retain(|chain| !chain.is_empty());
-    let span = |chain: &Vec<Edge>| {
+    let span = |chain: &Vec<FileEdge>| {
         let (start, end) = (chain[0].path.start(), chain[chain.len() - 1].path.end());
         axis.along.dot(&(end - start)).abs()
     };
@@ -117,7 +117,9 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
     }));
     let aside = |p: Vec2| !axis.holds(p);
     let twice = |p: &Vec2| if aside(*p) { vec![*p, axis.image(*p)] } else { vec![*p] };
-    let both = |line: &Inner| [line.path.clone(), axis.image_of(&line.path)].map(|path| Inner { path, ..line.clone() });
+    let both = |line: &InnerLine| {
+        [line.path.clone(), axis.image_of(&line.path)].map(|path| InnerLine { path, ..line.clone() })
+    };
     Some(Traced {
         sew: whole_chain(&rim, axis),
         cut,
@@ -125,7 +127,7 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
         lines: piece.lines.iter().flat_map(both).collect(),
         points: piece.points.iter().flat_map(twice).collect(),
         grain: piece.grain.or(piece.mirror),
-        notches: piece.notches.iter().flat_map(|n| twice(&n.at)).map(|at| Notch { at, told: None }).collect(),
+        notches: piece.notches.iter().flat_map(|n| twice(&n.at)).map(|at| ImportedNotch { at, told: None }).collect(),
         mirror: None,
         on_fold: None,
         cut_how: None,
@@ -134,7 +136,7 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
 }
 
 /// Edges from the fold to the fold and their mirror images back, which close.
-fn whole_chain(chain: &[Edge], axis: Axis) -> Vec<(Option<String>, Path)> {
+fn whole_chain(chain: &[FileEdge], axis: MirrorLine) -> Vec<(Option<String>, Path)> {
     let drawn = chain.iter().map(|e| (Some(format!("{}_l", e.name)), e.path.clone()));
     let images = chain.iter().rev().map(|e| (Some(format!("{}_r", e.name)), axis.image_of(&e.path).reversed()));
     let mut ring: Vec<(Option<String>, Path)> = drawn.chain(images).collect();

@@ -58,14 +58,14 @@ const TEST_WORDS: [&str; 8] = ["test", "square", "control", "kontroll", "quadrat
 
 /// Kinds of closed lines that belong to the sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sheet {
+pub(super) enum SheetLine {
     Page,
     Frame,
     TestSquare,
     TitleBlock,
 }
 
-impl Sheet {
+impl SheetLine {
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::Page => "the page",
@@ -77,7 +77,7 @@ impl Sheet {
 }
 
 /// Data of a drawing's sheet.
-pub(super) struct Surroundings<'a> {
+pub(super) struct DrawingFrame<'a> {
     pub(super) contours: &'a [Contour],
     pub(super) remarks: &'a [Remark],
     /// Size of the sheet, whose corner is the origin, if that is said.
@@ -86,9 +86,9 @@ pub(super) struct Surroundings<'a> {
     pub(super) smallest: f64,
 }
 
-impl Surroundings<'_> {
+impl DrawingFrame<'_> {
     /// Kind of the contour of this number if it belongs to the sheet and not to the pattern.
-    pub(super) fn of_sheet(&self, k: usize) -> Option<Sheet> {
+    pub(super) fn of_sheet(&self, k: usize) -> Option<SheetLine> {
         let contour = &self.contours[k];
         let [low, high] = rectangle(contour).filter(|_| contour.role == Role::Unknown)?;
         let content = self.content(contour);
@@ -97,7 +97,7 @@ impl Surroundings<'_> {
         let followed = || content.iter().any(|c| follows(&c.whole, &contour.whole));
         let behind = contour.filled && !content.is_empty();
         if is_page && (behind || share >= CONTENT && content.len() > 1 || share >= LARGE && !followed()) {
-            return Some(Sheet::Page);
+            return Some(SheetLine::Page);
         }
         if !content.is_empty() && !followed() {
             let named = |c: &&Contour| c.name.is_some() && c.name != contour.name;
@@ -105,10 +105,10 @@ impl Surroundings<'_> {
             let even = self.sheet.is_some_and(|sheet| has_even_margins([low, high], sheet));
             let one = even && share >= CONTENT && contour.name.is_none() && content.iter().all(named);
             if is_page && (share >= CONTENT && content.iter().all(named)) {
-                return Some(Sheet::Page);
+                return Some(SheetLine::Page);
             }
             if behind || apart || one {
-                return Some(Sheet::Frame);
+                return Some(SheetLine::Frame);
             }
         }
         let alone = self.contours.iter().filter(|c| c.area() > contour.area()).count() == 0;
@@ -116,8 +116,8 @@ impl Surroundings<'_> {
             return None;
         }
         self.is_test_square(contour, [low, high])
-            .then_some(Sheet::TestSquare)
-            .or_else(|| self.is_title_block(contour, [low, high]).then_some(Sheet::TitleBlock))
+            .then_some(SheetLine::TestSquare)
+            .or_else(|| self.is_title_block(contour, [low, high]).then_some(SheetLine::TitleBlock))
     }
 
     /// The contours of the size of a piece that lie in this one, and in no other within it.

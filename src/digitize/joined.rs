@@ -11,7 +11,7 @@ const GAP_AT: f64 = 1e-6;
 const LISTED: usize = 4;
 
 /// An outline, and the lines it was made of.
-pub(super) struct Joined {
+pub(super) struct JoinedOutline {
     pub(super) contour: Contour,
     pub(super) lines: Vec<Stroke>,
     /// The widest gap of ends that were joined, metres. Nought where all meet.
@@ -62,7 +62,7 @@ impl Unclosed {
 }
 
 /// The outlines that lines of one group make where they meet end to end, and the lines that belong to none.
-pub(super) fn joined(strokes: &[Stroke]) -> (Vec<Joined>, Vec<Stroke>) {
+pub(super) fn joined(strokes: &[Stroke]) -> (Vec<JoinedOutline>, Vec<Stroke>) {
     let (mut outlines, mut rest) = (Vec::new(), Vec::new());
     for (group, lines) in grouped(strokes) {
         let (bound, loose) = by_loose_ends(lines);
@@ -76,7 +76,7 @@ pub(super) fn joined(strokes: &[Stroke]) -> (Vec<Joined>, Vec<Stroke>) {
             let edges = run.into_iter().map(|(line, path)| (line.name.clone(), path)).collect();
             let contour = Contour::of_edges(edges, group.clone());
             match contour.filter(|_| lines.len() > 1 || gap > 0.0) {
-                Some(contour) => outlines.push(Joined { contour, lines, gap }),
+                Some(contour) => outlines.push(JoinedOutline { contour, lines, gap }),
                 None => rest.extend(lines),
             }
         }

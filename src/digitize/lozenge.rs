@@ -1,6 +1,5 @@
 //! Closed lines within a piece that are fish-eye darts: pointed at both ends, and symmetric about the line between.
 
-use super::fish_eyes::FishEye;
 use crate::geometry::{Path, Vec2, box_of, distance_to_segment, sides_of};
 
 /// Least length of a fish-eye, metres.
@@ -21,6 +20,18 @@ const STRAIGHT: f64 = 1e-3;
 const COARSE: f64 = 2e-5;
 /// Largest number of points of such chords.
 const MOST_POINTS: usize = 400;
+
+/// A fish-eye dart, metres.
+#[derive(Clone, Debug)]
+pub(super) struct FishEye {
+    pub(super) name: String,
+    /// The middle of its widest line.
+    pub(super) at: Vec2,
+    pub(super) intake: f64,
+    /// Its length above that line and below.
+    pub(super) up: f64,
+    pub(super) down: f64,
+}
 
 /// A closed line that is a fish-eye dart.
 pub(super) struct Lozenge {

@@ -41,7 +41,7 @@ pub use suggest::{Suggestion, sewn, suggestions};
 pub(crate) use trimmed::parts_within;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Corner, Cut, LineKind, NotchKind, Side};
+use crate::pattern::{Corner, CutKind, LineKind, NotchKind, Side};
 
 /// A line of a foreign file.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub struct Stroke {
 
 /// A notch, or one of the marks of a double one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Notch {
+pub struct ImportedNotch {
     /// Near the outline: on the cut line or the sewing line.
     pub at: Vec2,
     /// Its meaning, if the file tells it. It is then on the sewing line.
@@ -95,7 +95,7 @@ pub struct Material {
 
 /// A line inside a piece.
 #[derive(Clone, Debug)]
-pub struct Inner {
+pub struct InnerLine {
     /// Its name, if it has one.
     pub name: Option<String>,
     /// Its course.
@@ -194,13 +194,13 @@ pub struct Traced {
     /// Its holes.
     pub holes: Vec<Hole>,
     /// Lines inside.
-    pub lines: Vec<Inner>,
+    pub lines: Vec<InnerLine>,
     /// Points inside: drill holes.
     pub points: Vec<Vec2>,
     /// Tail and head of the grain line.
     pub grain: Option<[Vec2; 2]>,
     /// Notches.
-    pub notches: Vec<Notch>,
+    pub notches: Vec<ImportedNotch>,
     /// Pleats, each by the points of an edge where it is folded and where the fold is brought to.
     pub pleats: Vec<[Vec2; 2]>,
     /// The line in which a half is mirrored.
@@ -208,7 +208,7 @@ pub struct Traced {
     /// Other lines on the fold: a quarter of a circle has two.
     pub more_folds: Vec<[Vec2; 2]>,
     /// How it is cut, if the drawing tells.
-    pub cut_how: Option<Cut>,
+    pub cut_how: Option<CutKind>,
     /// Number of repetitions of that: a pair cut twice from folded cloth gives two of either hand.
     pub copies: usize,
     /// Number of times it is cut on the fold, if that is written on it. The line is [`Self::mirror`], if it is drawn.
@@ -239,10 +239,10 @@ impl Traced {
             sew: named(&self.sew),
             cut: self.cut.as_ref().map(path),
             holes: self.holes.iter().map(|h| h.moved(path)).collect(),
-            lines: self.lines.iter().map(|l| Inner { path: path(&l.path), ..l.clone() }).collect(),
+            lines: self.lines.iter().map(|l| InnerLine { path: path(&l.path), ..l.clone() }).collect(),
             points: self.points.iter().map(|p| p + shift).collect(),
             grain: self.grain.map(|g| g.map(|p| p + shift)),
-            notches: self.notches.iter().map(|n| Notch { at: n.at + shift, told: n.told.clone() }).collect(),
+            notches: self.notches.iter().map(|n| ImportedNotch { at: n.at + shift, told: n.told.clone() }).collect(),
             pleats: self.pleats.iter().map(|ends| ends.map(|p| p + shift)).collect(),
             mirror: self.mirror.map(|m| m.map(|p| p + shift)),
             more_folds: self.more_folds.iter().map(|m| m.map(|p| p + shift)).collect(),

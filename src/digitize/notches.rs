@@ -1,7 +1,7 @@
 //! Notches: which marks are one, and where on which edge they are.
 
 use super::darts::whole_name;
-use super::{Notch, ToldNotch};
+use super::{ImportedNotch, ToldNotch};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{DOUBLE_MARKS, NotchKind};
 
@@ -32,23 +32,23 @@ pub(super) struct EdgeNotch {
 }
 
 /// A notch by its mark, or the two marks of a double one.
-struct Place {
-    marks: Vec<Mark>,
+struct NotchMarks {
+    marks: Vec<DrawnMark>,
     double: bool,
     told: Option<ToldNotch>,
 }
 
-struct Mark {
+struct DrawnMark {
     at: Vec2,
     /// Nearer to the notch than the other mark of a double one.
     at_end: bool,
 }
 
-impl Place {
+impl NotchMarks {
     fn new(at: Vec2, told: Option<ToldNotch>) -> Self {
         let at_end = told.as_ref().is_some_and(|told| told.kind == NotchKind::DoubleAtEnd);
         let double = told.as_ref().is_some_and(|told| told.kind.is_double());
-        Self { marks: vec![Mark { at, at_end }], double, told }
+        Self { marks: vec![DrawnMark { at, at_end }], double, told }
     }
 
     /// Whether a mark of a double notch may be the second of this one.
@@ -70,7 +70,7 @@ impl Place {
     /// Position along a line: half way between its marks. If one mark stands at the edge's end, the position follows
     /// from the other mark.
     fn along(&self, path: &Path) -> f64 {
-        let along = |mark: &Mark| path.nearest(mark.at).0;
+        let along = |mark: &DrawnMark| path.nearest(mark.at).0;
         let half = |from: f64, to: f64| from + DOUBLE_MARKS / 2.0 * (to - from).signum();
         match self.marks.as_slice() {
             [a, b] if a.at_end && !b.at_end => half(along(b), along(a)),
@@ -81,11 +81,11 @@ impl Place {
 }
 
 /// The notches of an outline.
-pub(super) struct Notches(Vec<Found>);
+pub(super) struct Notches(Vec<NotchFound>);
 
 /// A notch and the edges that it is nearest to.
-struct Found {
-    place: Place,
+struct NotchFound {
+    place: NotchMarks,
     /// Distance from these.
     off: f64,
     /// The one of them that it is on, if that is told.
@@ -93,16 +93,17 @@ struct Found {
 }
 
 impl Notches {
-    pub(super) fn new(outline: &[Named], notches: &[Notch]) -> Self {
-        let (told, untold): (Vec<&Notch>, Vec<&Notch>) = notches.iter().partition(|notch| notch.told.is_some());
+    pub(super) fn new(outline: &[Named], notches: &[ImportedNotch]) -> Self {
+        let (told, untold): (Vec<&ImportedNotch>, Vec<&ImportedNotch>) =
+            notches.iter().partition(|notch| notch.told.is_some());
         let untold: Vec<Vec2> = untold.into_iter().map(|notch| notch.at).collect();
         let places = singled(&untold).into_iter().chain(paired(&told));
-        Self(places.map(|place| Found::new(place, outline)).collect())
+        Self(places.map(|place| NotchFound::new(place, outline)).collect())
     }
 
     /// Those on the edge of this number, as places along `path`, which is that edge.
     pub(super) fn on(&self, edge: usize, path: &Path) -> Vec<EdgeNotch> {
-        let on_edge = |Found { place, .. }: &Found| EdgeNotch {
+        let on_edge = |NotchFound { place, .. }: &NotchFound| EdgeNotch {
             at: place.along(path),
             double: place.double,
             may_be_mouth: place.told.as_ref().is_none_or(|told| !told.kind.is_notch()),
@@ -111,9 +112,9 @@ impl Notches {
     }
 }
 
-impl Found {
+impl NotchFound {
     /// Of the edges that a notch is nearest to it is on the one that is told, or on the first.
-    fn new(place: Place, outline: &[Named]) -> Self {
+    fn new(place: NotchMarks, outline: &[Named]) -> Self {
         let away: Vec<f64> = outline.iter().map(|(_, path)| place.off(path)).collect();
         let off = away.iter().copied().fold(f64::INFINITY, f64::min);
         let edge = place.told.as_ref().and_then(|told| {
@@ -131,7 +132,7 @@ impl Found {
 }
 
 /// Notches of which nothing is told: those side by side are double.
-fn singled(notches: &[Vec2]) -> Vec<Place> {
+fn singled(notches: &[Vec2]) -> Vec<NotchMarks> {
     let mut out: Vec<(Vec2, bool)> = Vec::new();
     for &p in notches.iter().take(MOST_NOTCHES) {
         match out.iter_mut().find(|(q, _)| (*q - p).norm() <= DOUBLE) {
@@ -143,14 +144,14 @@ fn singled(notches: &[Vec2]) -> Vec<Place> {
             None => out.push((p, false)),
         }
     }
-    out.into_iter().map(|(at, double)| Place { double, ..Place::new(at, None) }).collect()
+    out.into_iter().map(|(at, double)| NotchMarks { double, ..NotchMarks::new(at, None) }).collect()
 }
 
 /// Notches that are told: the marks of a double one follow each other.
-fn paired(notches: &[&Notch]) -> Vec<Place> {
-    let mut out: Vec<Place> = Vec::new();
+fn paired(notches: &[&ImportedNotch]) -> Vec<NotchMarks> {
+    let mut out: Vec<NotchMarks> = Vec::new();
     for notch in notches {
-        let mark = Place::new(notch.at, notch.told.clone());
+        let mark = NotchMarks::new(notch.at, notch.told.clone());
         match out.iter_mut().find(|place| place.lacks(&mark)) {
             Some(place) => place.marks.extend(mark.marks),
             None => out.push(mark),

@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 use super::Traced;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, Side};
+use crate::pattern::{CutKind, Side};
 
 /// Largest distance of two outlines that are alike, metres: rounding of programs, and less than any hand draws.
 const ALIKE: f64 = 5e-5;
@@ -25,7 +25,7 @@ pub(super) fn paired(pieces: &[Traced]) -> Vec<Traced> {
             Some(k) => {
                 left[k] = None;
                 let (side, stem) = sided(&piece.name);
-                Traced { name: stem, cut_how: Some(Cut::Pair), drawn: side, ..piece.clone() }
+                Traced { name: stem, cut_how: Some(CutKind::Pair), drawn: side, ..piece.clone() }
             }
             None => piece.clone(),
         });

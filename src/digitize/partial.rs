@@ -10,13 +10,13 @@ const NOTHING: f64 = 1e-7;
 
 /// A drawn part of a cut line and the stretch of the sewing line that it runs along, as arc lengths: the second is
 /// past the whole length where the stretch goes over the sewing line's start.
-struct Part {
+struct DrawnPart {
     from: f64,
     to: f64,
     line: Path,
 }
 
-impl Part {
+impl DrawnPart {
     fn new(sewn: &Path, line: &Path) -> Option<Self> {
         let whole = sewn.length();
         let [start, middle, end] = [0.0, 0.5, 1.0].map(|share| sewn.nearest(line.point(line.length() * share)));
@@ -35,7 +35,7 @@ impl Part {
 /// the sewing line, or two lie beside the same stretch of it.
 pub(super) fn completed(sewn: &Path, drawn: &[Path]) -> Option<Path> {
     let whole = sewn.length();
-    let mut parts: Vec<Part> = drawn.iter().map(|line| Part::new(sewn, line)).collect::<Option<_>>()?;
+    let mut parts: Vec<DrawnPart> = drawn.iter().map(|line| DrawnPart::new(sewn, line)).collect::<Option<_>>()?;
     parts.sort_by(|a, b| a.from.total_cmp(&b.from));
     let first = parts.first()?.from;
     let next = |k: usize| parts.get(k + 1).map_or(first + whole, |part| part.from);

@@ -1,6 +1,6 @@
 //! Text on a piece that tells how it is cut.
 
-use crate::pattern::Cut;
+use crate::pattern::CutKind;
 
 /// Most copies of a piece that words ask for.
 const MOST: usize = 100;
@@ -15,7 +15,7 @@ const ON_FOLD: [&str; 3] = ["on fold", "on the fold", "on a fold"];
 #[derive(Debug, PartialEq)]
 pub(super) enum Said {
     /// So, and so many times over.
-    Cut(Cut, usize),
+    Cut(CutKind, usize),
     /// So often on the fold of the cloth. Where that is, is not in the words.
     OnFold(usize),
 }
@@ -37,13 +37,13 @@ pub(super) fn said(text: &str) -> Option<Said> {
     let says = |known: &[&str]| known.iter().any(|known| text.contains(known));
     // `2 pairs` are two of either hand. `cut 2, a pair` is one.
     if let Some(count) = pairs().filter(|count| (1..=MOST).contains(count)) {
-        return Some(Said::Cut(Cut::Pair, count));
+        return Some(Said::Cut(CutKind::Pair, count));
     }
     match beside? {
         count @ 1..=MOST if says(&ON_FOLD) => Some(Said::OnFold(count)),
-        1 if says(&MIRRORED) => Some(Said::Cut(Cut::Pair, 1)),
-        count @ 2..=MOST if says(&MIRRORED) && count % 2 == 0 => Some(Said::Cut(Cut::Pair, count / 2)),
-        count @ 2..=MOST => Some(Said::Cut(Cut::Count(count), 1)),
+        1 if says(&MIRRORED) => Some(Said::Cut(CutKind::Pair, 1)),
+        count @ 2..=MOST if says(&MIRRORED) && count % 2 == 0 => Some(Said::Cut(CutKind::Pair, count / 2)),
+        count @ 2..=MOST => Some(Said::Cut(CutKind::Count(count), 1)),
         _ => None,
     }
 }
@@ -60,14 +60,14 @@ mod tests {
 
     #[test]
     fn makers_say_in_many_ways_how_often_a_piece_is_cut() {
-        let count = |n| Some(Said::Cut(Cut::Count(n), 1));
+        let count = |n| Some(Said::Cut(CutKind::Count(n), 1));
         for two in ["cut 2", "Cut 2x", "2x cut", "CUT TWO", "sleeve: cut x2", "cut: 2, shell"] {
             assert_eq!(said(two), count(2), "{two}");
         }
         for (pairs, over) in
             [("cut 1 pair", 1), ("2 pairs", 2), ("cut 4 mirrored", 2), ("cut 2 (left and right)", 1), ("one pair", 1)]
         {
-            assert_eq!(said(pairs), Some(Said::Cut(Cut::Pair, over)), "{pairs}");
+            assert_eq!(said(pairs), Some(Said::Cut(CutKind::Pair, over)), "{pairs}");
         }
         assert_eq!(said("cut 1 on fold"), Some(Said::OnFold(1)));
         for nothing in ["cut 1", "cut here", "undercut 2", "haircut", "cut 999999999999999999999", "size 2"] {

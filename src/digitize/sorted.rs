@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::chain::{bridged, chained, is_closed};
 use super::contour::{Contour, NEAR};
-use super::joined::{Joined, joined};
+use super::joined::{JoinedOutline, joined};
 use super::partial::completed;
 use super::spikes::without_spikes;
 use super::{Role, Stroke};
@@ -16,7 +16,7 @@ const POINT: f64 = 1e-6;
 const MARK_SHARE: f64 = 0.5;
 
 /// Strokes of one group and kind that are not closed by themselves.
-struct Open<'a> {
+struct OpenStrokes<'a> {
     group: Option<String>,
     role: Role,
     edges: Vec<(&'a Stroke, Path)>,
@@ -39,7 +39,7 @@ impl Sorted {
     pub(super) fn new(strokes: &[Stroke]) -> Self {
         let mut sorted = Self::default();
         let (mut unsaid, mut sewn) = (Vec::new(), Vec::new());
-        let mut open: Vec<Open> = Vec::new();
+        let mut open: Vec<OpenStrokes> = Vec::new();
         let mut by_group: HashMap<(Option<String>, bool), usize> = HashMap::new();
         for stroke in strokes {
             let closed = is_closed(&[((), stroke.path.clone())]) && stroke.path.double_area().abs() > 0.0;
@@ -48,7 +48,7 @@ impl Sorted {
                 Role::Edge | Role::Cut => {
                     let key = (stroke.group.clone(), stroke.role == Role::Cut);
                     let at = *by_group.entry(key).or_insert_with(|| {
-                        open.push(Open { group: stroke.group.clone(), role: stroke.role, edges: Vec::new() });
+                        open.push(OpenStrokes { group: stroke.group.clone(), role: stroke.role, edges: Vec::new() });
                         open.len() - 1
                     });
                     open[at].edges.push((stroke, stroke.path.clone()));
@@ -90,7 +90,7 @@ impl Sorted {
 
     /// Adds the outlines of edges that meet. A run that stays open is closed by its fold, or by the sewing line on
     /// which it begins and ends.
-    fn join_edges(&mut self, Open { group, role, edges }: Open) {
+    fn join_edges(&mut self, OpenStrokes { group, role, edges }: OpenStrokes) {
         let role = if role == Role::Edge { Role::Sew } else { role };
         let of_edges = role == Role::Sew;
         let joined = bridged(chained(&edges));
@@ -132,12 +132,12 @@ impl Sorted {
         let is_small = |one: &Contour, other: &Contour| {
             one.area() < MARK_SHARE * other.area() && one.lies_in(other) && !std::ptr::eq(one, other)
         };
-        let is_mark = |own: &Joined| {
+        let is_mark = |own: &JoinedOutline| {
             let others = self.contours.iter().chain(outlines.iter().map(|o| &o.contour));
             others.into_iter().any(|other| is_small(&own.contour, other))
         };
         let marks: Vec<bool> = outlines.iter().map(is_mark).collect();
-        for (Joined { contour, lines, gap }, is_mark) in outlines.into_iter().zip(marks) {
+        for (JoinedOutline { contour, lines, gap }, is_mark) in outlines.into_iter().zip(marks) {
             if is_mark {
                 self.rest.extend(lines);
                 continue;

@@ -39,7 +39,7 @@ const CORNER: f64 = 0.7;
 /// Stencils of all pieces, over particles. A second layer of `hem` metres lies along rims.
 pub(super) fn of_pieces(mesh: &ClothMesh, fabrics: &[Arc<Fabric>], hem: f64) -> Vec<Stencil> {
     let pieces = mesh.pieces.iter().zip(fabrics);
-    pieces.flat_map(|(piece, fabric)| Sheet::new(mesh, piece, fabric).stencils(hem)).collect()
+    pieces.flat_map(|(piece, fabric)| PieceTriangles::new(mesh, piece, fabric).stencils(hem)).collect()
 }
 
 /// Hinges along the seams, over particles. `node_of` maps particles to nodes.
@@ -102,7 +102,7 @@ pub(super) fn thread_of(warp: Vec2, d: Vec2) -> Option<usize> {
 }
 
 /// One piece's particles and triangles.
-struct Sheet<'a> {
+struct PieceTriangles<'a> {
     mesh: &'a ClothMesh,
     piece: &'a PieceMesh,
     /// B₁ and B₂, N·m.
@@ -132,7 +132,7 @@ struct Cell {
 /// Second derivatives as sums of differences: (from, to, factor) for x_uu, x_vv and x_uv.
 type Flows = Vec<(u32, u32, f64)>;
 
-impl<'a> Sheet<'a> {
+impl<'a> PieceTriangles<'a> {
     fn new(mesh: &'a ClothMesh, piece: &'a PieceMesh, fabric: &Fabric) -> Self {
         let first = piece.triangles.start as u32;
         let folds = piece.lines.iter().filter(|l| l.kind.hinge().is_some());

@@ -20,9 +20,9 @@ pub struct Friction {
     /// Tangential stiffness of a contact of little load, N/m.
     stiffness: f64,
     /// In the contacts' order.
-    memory: Vec<Memory>,
+    memory: Vec<ContactMemory>,
     /// Memory of touching contacts by key, to be found again after the next search.
-    touching: HashMap<Key, Memory, FixedState>,
+    touching: HashMap<Key, ContactMemory, FixedState>,
     /// Mean stored displacement of each node's contacts with the body, weighted by load, metres.
     on_body: Vec<Vec3>,
     /// Positions at the last update.
@@ -38,7 +38,7 @@ const GIVE: f64 = 5e-4;
 
 /// Memory of a contact since it was last dragged. An open contact has none.
 #[derive(Clone, Copy, Debug, Default)]
-struct Memory {
+struct ContactMemory {
     /// Stored displacement, metres.
     drawn: Vec3,
     /// Whether it slid when it was last dragged. The flag is kept because a new search may change the load, so that the
@@ -132,7 +132,7 @@ impl Hold {
 /// Memory of contacts that are set aside, and of their nodes.
 #[derive(Debug)]
 pub(super) struct Remembered {
-    touching: Vec<(Key, Memory)>,
+    touching: Vec<(Key, ContactMemory)>,
     on_body: Vec<Vec3>,
 }
 
@@ -173,7 +173,7 @@ impl Friction {
     fn slip(&self, k: usize, contact: &Contact, x: &[Vec3]) -> Vec3 {
         let since: Vec3 = contact.parts().map(|(i, w)| (x[i] - self.at[i]) * w).sum();
         let drawn = match self.memory[k] {
-            Memory { touched: true, drawn, .. } => drawn,
+            ContactMemory { touched: true, drawn, .. } => drawn,
             _ if contact.is_on_body() => contact.parts().map(|(i, w)| self.on_body[i] * w).sum(),
             _ => Vec3::zeros(),
         };
@@ -210,7 +210,7 @@ impl Friction {
         let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
         self.touching.clear();
         for (k, (contact, (normal_force, hold))) in contacts.iter().zip(holds).enumerate() {
-            self.memory[k] = hold.map_or_else(Memory::default, |hold| Memory {
+            self.memory[k] = hold.map_or_else(ContactMemory::default, |hold| ContactMemory {
                 drawn: hold.kept(Vec3::zeros()),
                 slid: hold.slid || hold.slides(hold.drawn),
                 touched: true,

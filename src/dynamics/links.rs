@@ -11,7 +11,7 @@ use crate::parallel::{self, MEDIUM};
 
 /// An element at one of its nodes.
 #[derive(Clone, Copy, Debug)]
-struct Link {
+struct ElementAtNode {
     element: u32,
     /// Which of the element's nodes it is.
     corner: u8,
@@ -25,7 +25,7 @@ pub(super) struct Links {
     /// Start of every node's links, and their total.
     starts: Vec<u32>,
     /// Rising by elements.
-    links: Vec<Link>,
+    links: Vec<ElementAtNode>,
     /// Start of every row of the stiffness matrix in `columns`, and their total.
     rows: Vec<u32>,
     /// The nodes that each node is coupled to by elements, itself included, rising.
@@ -48,7 +48,7 @@ impl Links {
             starts[n + 1] += starts[n];
         }
         let mut next = starts.clone();
-        let mut links = vec![Link { element: 0, corner: 0, slots: [0; 3] }; starts[nodes] as usize];
+        let mut links = vec![ElementAtNode { element: 0, corner: 0, slots: [0; 3] }; starts[nodes] as usize];
         for (element, of_element) in all() {
             for (corner, &n) in of_element.iter().enumerate() {
                 let at = &mut next[n as usize];
@@ -64,7 +64,7 @@ impl Links {
     /// Adds the row of a node to the matrix, and the places of its elements' nodes in it.
     fn add_row(&mut self, cloth: &Cloth, node: usize) {
         let own = &mut self.links[self.starts[node] as usize..self.starts[node + 1] as usize];
-        let of = |link: &Link| -> &[u32] { cloth.element(link.element as usize).nodes() };
+        let of = |link: &ElementAtNode| -> &[u32] { cloth.element(link.element as usize).nodes() };
         let mut row: Vec<u32> = own.iter().flat_map(of).copied().collect();
         row.sort_unstable();
         row.dedup();
@@ -77,7 +77,7 @@ impl Links {
         self.rows.push(self.columns.len() as u32);
     }
 
-    fn links(&self, node: usize) -> &[Link] {
+    fn links(&self, node: usize) -> &[ElementAtNode] {
         &self.links[self.starts[node] as usize..self.starts[node + 1] as usize]
     }
 
@@ -89,7 +89,7 @@ impl Links {
     /// Adds the forces of springs, threads and shears at `x` to the `first` on each node, N.
     pub(super) fn forces(&self, cloth: &Cloth, x: &[Vec3], first: impl Fn(usize) -> Vec3 + Sync) -> Vec<Vec3> {
         let forces = parallel::map(cloth.elements(), MEDIUM, |number| force(cloth, x, number));
-        let add = |sum: Vec3, link: &Link| sum + forces[link.element as usize][link.corner as usize];
+        let add = |sum: Vec3, link: &ElementAtNode| sum + forces[link.element as usize][link.corner as usize];
         parallel::map(x.len(), MEDIUM, |node| self.links(node).iter().fold(first(node), add))
     }
 

@@ -51,7 +51,7 @@ impl Proposal {
 }
 
 /// The true stiffness of the cloth at one position, without contacts.
-struct Tangent<'a> {
+struct ClothStiffness<'a> {
     cloth: &'a Cloth,
     links: &'a Links,
     /// One over the square of the time step, 1/s².
@@ -78,7 +78,7 @@ impl Stepper {
         let free = free_forces(cloth, &links, x, forces);
         let presses = presses(cloth, x, forces);
         let holds = parallel::map(presses.len(), MEDIUM, |k| forces.hold(cloth, x, k, presses[k].load));
-        let tangent = Tangent::new(cloth, &links, x, dt);
+        let tangent = ClothStiffness::new(cloth, &links, x, dt);
         let mut step = Proposal::none(x.len());
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
@@ -105,7 +105,7 @@ impl Stepper {
     /// Conjugate gradients on the tangent with the contacts `touching`, starting from the step `from`.
     fn truncated(
         &self,
-        tangent: &Tangent,
+        tangent: &ClothStiffness,
         touching: &Touching,
         rhs: &[Vec3],
         from: &Proposal,
@@ -148,7 +148,7 @@ impl Stepper {
     }
 }
 
-impl<'a> Tangent<'a> {
+impl<'a> ClothStiffness<'a> {
     fn new(cloth: &'a Cloth, links: &'a Links, x: &[Vec3], dt: f64) -> Self {
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
         Self { cloth, links, inertia: 1.0 / (dt * dt), stiffness: links.stiffness(cloth, x), creases }
@@ -180,7 +180,7 @@ impl<'a> Tangent<'a> {
         parallel::largest(edges.len(), LIGHT, square).sqrt()
     }
 
-    /// [`Tangent::change`] if it is more than `radius`. No edge changes by more than its two nodes move.
+    /// [`ClothStiffness::change`] if it is more than `radius`. No edge changes by more than its two nodes move.
     fn change_beyond(&self, d: &[Vec3], radius: f64) -> Option<f64> {
         let longest = parallel::largest(d.len(), LIGHT, |i| d[i].norm_squared()).sqrt();
         if 2.0 * longest <= radius {
@@ -207,7 +207,7 @@ fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
 
 /// Model of the energy near one position: quadratic without contact, and piecewise for every contact.
 struct Model<'a> {
-    tangent: &'a Tangent<'a>,
+    tangent: &'a ClothStiffness<'a>,
     contacts: &'a [Contact<'a>],
     /// Forces without contact, N.
     free: &'a [Vec3],
@@ -218,7 +218,7 @@ struct Model<'a> {
 
 /// Change of the energy by a step, J.
 #[derive(Clone, Copy)]
-struct Judged {
+struct EnergyChange {
     /// Decrease in the piecewise model: a contact pushes only while it touches, and slides only beyond its friction
     /// limit.
     gain: f64,
@@ -235,7 +235,7 @@ impl Model<'_> {
         let at = |share: f64| {
             let d = on_the_way(&from.d, &way, share);
             let resisted = on_the_way(&from.resisted, &resisted, share);
-            let Judged { gain, misjudged } = self.judge(&d, &resisted);
+            let EnergyChange { gain, misjudged } = self.judge(&d, &resisted);
             (Proposal { d, resisted, gain }, misjudged)
         };
         let (mut best, mut share) = (at(1.0), 1.0);
@@ -251,21 +251,21 @@ impl Model<'_> {
     }
 
     /// Judges the step `d`, where `resisted` is the resistance of the cloth.
-    fn judge(&self, d: &[Vec3], resisted: &[Vec3]) -> Judged {
+    fn judge(&self, d: &[Vec3], resisted: &[Vec3]) -> EnergyChange {
         let without = dot(self.free, d) - 0.5 * dot(d, resisted);
         let of_contacts = parallel::map(self.contacts.len(), MEDIUM, |k| self.judge_contact(k, d));
-        of_contacts.into_iter().fold(Judged { gain: without, misjudged: 0.0 }, |sum, one| Judged {
+        of_contacts.into_iter().fold(EnergyChange { gain: without, misjudged: 0.0 }, |sum, one| EnergyChange {
             gain: sum.gain + one.gain,
             misjudged: sum.misjudged + one.misjudged,
         })
     }
 
     /// The part of contact number `k` in the judgement of the step `d`.
-    fn judge_contact(&self, k: usize, d: &[Vec3]) -> Judged {
+    fn judge_contact(&self, k: usize, d: &[Vec3]) -> EnergyChange {
         let (contact, press) = (&self.contacts[k], &self.pushing.presses[k]);
         let after = press.after(opening(contact, d));
         let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
-        let mut out = Judged { gain: energy(press.load) - energy(after), misjudged: 0.0 };
+        let mut out = EnergyChange { gain: energy(press.load) - energy(after), misjudged: 0.0 };
         if self.pushing.active[k] != (after > 0.0) {
             out.misjudged += energy(after.abs());
         }

@@ -277,7 +277,7 @@ impl Stepper {
     }
 
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces, touching: &Touching) {
-        let bounds = parallel::map(cloth.elements(), MEDIUM, |number| Bound::new(&cloth.tangent(number, x)));
+        let bounds = parallel::map(cloth.elements(), MEDIUM, |number| StiffnessBound::new(&cloth.tangent(number, x)));
         let pattern = self.matrix.pattern().clone();
         let coupled = |i: u32, j: u32| pattern.block_slot(i as usize, j as usize).is_some();
         let pressed = touching.pressed(|node| self.is_held[node as usize], coupled);
@@ -328,14 +328,14 @@ impl Stepper {
 }
 
 /// Positive semidefinite bound of an element's stiffness.
-enum Bound {
+enum StiffnessBound {
     /// Of a spring or thread: per displacement of one end.
     Stretch(Mat3),
     /// Of a shear: [`super::shear::ShearTangent::bound`].
     Shear([Vec3; 2], [f64; 2]),
 }
 
-impl Bound {
+impl StiffnessBound {
     fn new(tangent: &ElementTangent) -> Self {
         match tangent {
             ElementTangent::Stretch(tangent) => Self::Stretch(tangent.bound()),

@@ -1,11 +1,13 @@
 //! Why there is no fabric.
 
+use crate::input::did_you_mean;
+
 /// Why a fabric cannot be had. Every message tells the expected input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FabricError {
     /// Neither a library name, nor a fabric of the garment, nor a file.
     #[error("fabric '{name}' not found{}; there are {known}, or give the path of a .yaml file",
-            nearest.as_ref().map(|n| format!("; did you mean '{n}'?")).unwrap_or_default())]
+            did_you_mean(nearest.as_deref()))]
     Unknown {
         /// As asked for.
         name: String,

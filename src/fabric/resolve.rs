@@ -7,7 +7,7 @@ use std::path::Path;
 use super::error::FabricError;
 use super::library::{library, load_in, read};
 use super::sheet::{FabricSheet, LiuMeasures, flatten};
-use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
+use super::units::{BEND, LENGTH, QuantityKind, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, GRAVITY, TensileCurve};
 use crate::input::yaml;
 
@@ -199,7 +199,7 @@ impl<'a> Values<'a> {
     }
 
     /// A value with its unit, or a factor on `base`. `None` when none of `keys` is written.
-    fn quantity(&self, keys: &[&str], kind: &Quantity, base: Option<f64>) -> Result<Option<f64>, FabricError> {
+    fn quantity(&self, keys: &[&str], kind: &QuantityKind, base: Option<f64>) -> Result<Option<f64>, FabricError> {
         let Some((key, text)) = self.first(keys) else { return Ok(base) };
         let value = match (kind.parse(text), text.trim().parse::<f64>(), base) {
             (Some(value), _, _) => value,
@@ -220,7 +220,7 @@ impl<'a> Values<'a> {
         self.checked(key, text, value, &range, "").map(Some)
     }
 
-    fn missing(&self, key: &str, kind: &Quantity) -> FabricError {
+    fn missing(&self, key: &str, kind: &QuantityKind) -> FabricError {
         let expected = kind.expected().replace("a number in ", "");
         FabricError::Missing { fabric: self.context.name.to_owned(), key: key.to_owned(), expected }
     }

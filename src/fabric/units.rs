@@ -11,7 +11,7 @@ const GF_CM2_PER_CM: f64 = 98.0665e-6;
 const OZ_PER_YD2: f64 = 0.033_905_75;
 
 /// A kind of quantity: its units, and the SI value of each.
-pub(super) struct Quantity {
+pub(super) struct QuantityKind {
     units: &'static [(&'static str, f64)],
     /// Range of plausible values, SI: from a spider's web to a carpet. Values outside are slips of the pen or in wrong
     /// units.
@@ -21,30 +21,30 @@ pub(super) struct Quantity {
 }
 
 /// Mass per area, kg/m².
-pub(super) const WEIGHT: Quantity = Quantity {
+pub(super) const WEIGHT: QuantityKind = QuantityKind {
     units: &[("g/m2", 1e-3), ("kg/m2", 1.0), ("mg/cm2", 1e-2), ("oz/yd2", OZ_PER_YD2)],
     range: 1e-3..=10.0,
     si: "kg/m2",
 };
 /// Length, m.
-pub(super) const LENGTH: Quantity =
-    Quantity { units: &[("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6), ("m", 1.0)], range: 1e-6..=0.03, si: "m" };
+pub(super) const LENGTH: QuantityKind =
+    QuantityKind { units: &[("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6), ("m", 1.0)], range: 1e-6..=0.03, si: "m" };
 /// Bending rigidity, N·m.
-pub(super) const BEND: Quantity = Quantity {
+pub(super) const BEND: QuantityKind = QuantityKind {
     units: &[("gf.cm2/cm", GF_CM2_PER_CM), ("uN.m", 1e-6), ("mN.mm", 1e-6), ("N.m", 1.0)],
     range: 1e-9..=0.1,
     si: "N.m",
 };
 /// Shear stiffness, N/m per radian.
-pub(super) const SHEAR: Quantity = Quantity {
+pub(super) const SHEAR: QuantityKind = QuantityKind {
     units: &[("gf/cm.deg", GF_PER_CM * 180.0 / PI), ("N/m.deg", 180.0 / PI), ("N/m.rad", 1.0), ("N/m", 1.0)],
     range: 1e-3..=1e5,
     si: "N/m",
 };
 /// A part of one.
-pub(super) const STRAIN: Quantity = Quantity { units: &[("%", 0.01)], range: 1e-4..=10.0, si: "of the length" };
+pub(super) const STRAIN: QuantityKind = QuantityKind { units: &[("%", 0.01)], range: 1e-4..=10.0, si: "of the length" };
 
-impl Quantity {
+impl QuantityKind {
     /// `a number in g/m2, kg/m2 or oz/yd2`.
     pub(super) fn expected(&self) -> String {
         let names: Vec<&str> = self.units.iter().map(|u| u.0).collect();

@@ -6,7 +6,7 @@ use crate::pipeline::{Earlier, Job, PipelineError, Run};
 use crate::report::Report;
 
 /// A draped garment.
-pub(super) struct Draped {
+pub(super) struct FittedDrape {
     pub(super) report: Report,
     /// To go on from.
     pub(super) hanging: Option<Earlier>,
@@ -21,12 +21,12 @@ pub(super) fn drape(
     loaded: &Loaded,
     from: Option<&Earlier>,
     tell: &mut dyn FnMut(f64),
-) -> Result<Draped, PipelineError> {
+) -> Result<FittedDrape, PipelineError> {
     let job = Job::new(asked.file, loaded.clone(), asked.overrides)?;
     let mut run = match from {
         Some(earlier) => Run::going_on(&job, earlier.clone()),
         None => Run::new(&job),
     };
     run.drape(&mut |_, share| tell(share))?;
-    Ok(Draped { report: run.report(), hanging: Earlier::of(&run) })
+    Ok(FittedDrape { report: run.report(), hanging: Earlier::of(&run) })
 }

@@ -2,7 +2,7 @@
 
 use crate::geometry::MM;
 use crate::pattern::{Bound, Garment, WantFile, Wanted, is_girth};
-use crate::report::{Length, Report};
+use crate::report::{Report, WornLength};
 
 /// Per cent in a fraction of 1.
 const PERCENT: f64 = 1e2;
@@ -53,7 +53,7 @@ impl Figure {
     /// The figure in a report. `None` where there is nothing to measure.
     pub(super) fn measured(&self, report: &Report) -> Option<f64> {
         let fit = report.fit.as_ref()?;
-        let against = |end: &str| fit.lengths.iter().filter(|l| l.against.ends_with(end)).collect::<Vec<&Length>>();
+        let against = |end: &str| fit.lengths.iter().filter(|l| l.against.ends_with(end)).collect::<Vec<&WornLength>>();
         match &self.want {
             WantFile::Ease(girth, _) => mean(fit.girths.iter().filter(|g| is_girth(girth, &g.name)).map(|g| g.ease)),
             WantFile::Pressure(girth, _) => {

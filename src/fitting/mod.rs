@@ -22,7 +22,7 @@ use crate::io::garment::Loaded;
 use crate::pattern::{AlterationFile, WantsFile};
 use crate::pipeline::{Overrides, PipelineError};
 
-use search::Search;
+use search::KnobSearch;
 
 /// The garment, its wants, and how they are looked for.
 #[derive(Clone, Copy, Debug)]
@@ -136,5 +136,5 @@ pub struct KnobRow {
 /// [`PipelineError`]: a garment, fabric or body that cannot be used, or a garment that cannot be made. That wants
 /// cannot be had is no error: [`Fitting::refused`].
 pub fn fit(asked: &Asked, progress: &mut dyn FnMut(&str, f64)) -> Result<Fitting, PipelineError> {
-    Search::begin(asked, progress)?.finish(progress)
+    KnobSearch::begin(asked, progress)?.finish(progress)
 }

@@ -3,7 +3,7 @@
 
 use super::figure::Figure;
 use super::knob::{Knob, Origin, alterations, here, length, rounded, taken};
-use super::seams::{Passing, Plane, is_plain, passing};
+use super::seams::{GirthPlane, Passing, is_plain, passing};
 use crate::geometry::{MM, Vec2, Vec3, range_of};
 use crate::io::garment::Loaded;
 use crate::pattern::{AlterationFile, Garment, Piece, Unit, WantFile, is_girth, walk, written_edge};
@@ -36,7 +36,7 @@ const UPRIGHT: f64 = 0.95;
 const TENTH: f64 = 0.1;
 
 /// The garment as it was first draped.
-pub(super) struct Seen<'a> {
+pub(super) struct FirstDrape<'a> {
     pub(super) loaded: &'a Loaded,
     pub(super) job: &'a Job,
     /// Positions of the particles.
@@ -44,7 +44,7 @@ pub(super) struct Seen<'a> {
     pub(super) report: &'a Report,
 }
 
-impl Seen<'_> {
+impl FirstDrape<'_> {
     /// Knobs for figures, each once.
     pub(super) fn knobs(&self, figures: &[&Figure]) -> Vec<Knob> {
         let mut out: Vec<Knob> = Vec::new();
@@ -79,7 +79,7 @@ impl Seen<'_> {
         let girths = &self.report.fit.as_ref()?.girths;
         let rows = girths.iter().filter(|girth| is_girth(wanted, &girth.name));
         let mut seams: Vec<Passing> = Vec::new();
-        for plane in rows.filter_map(|row| Plane::new(row, &self.job.body)) {
+        for plane in rows.filter_map(|row| GirthPlane::new(row, &self.job.body)) {
             // A limb's seam is the other limb's as well where the file has one for both.
             let found = chosen(passing(&plane, &self.loaded.file, self.job, self.at));
             seams.extend(found.into_iter().filter(|p| seams.iter().all(|s| s.seam != p.seam)).collect::<Vec<_>>());
@@ -170,14 +170,14 @@ impl Seen<'_> {
         let openings: Vec<&str> = lengths.map(|l| l.name.as_str()).collect();
         let rows = self.report.worn.iter().filter(|w| openings.contains(&w.opening.as_str()));
         let edges: Vec<&String> = rows.flat_map(|w| &w.edges).collect();
-        let mut ends: Vec<End> = Vec::new();
+        let mut ends: Vec<PieceEnd> = Vec::new();
         for piece in &self.job.garment.pieces {
             let is_hem = |name: &str| {
                 let own = format!("{}.{}", piece.name, written_edge(name));
                 edges.iter().any(|edge| **edge == own || plain(edge) == plain(&own))
             };
             if ends.iter().all(|e| e.piece != piece.drawn_as) {
-                ends.extend(End::of(piece, is_hem));
+                ends.extend(PieceEnd::of(piece, is_hem));
             }
         }
         let stretch = ends.iter().map(|e| e.room).fold(STRETCH, f64::min);
@@ -185,7 +185,7 @@ impl Seen<'_> {
             return None;
         }
         let pieces: Vec<String> = ends.iter().map(|e| e.piece.clone()).collect();
-        let longer = |ends: Vec<&End>| LENGTH.map(|mm| lengthened(&ends, mm, stretch, self.unit()));
+        let longer = |ends: Vec<&PieceEnd>| LENGTH.map(|mm| lengthened(&ends, mm, stretch, self.unit()));
         let parts = together(&ends).into_iter().map(longer).collect();
         let name = format!("length of {}", pieces.join(", "));
         let knob = Knob { name, parts, range: LENGTH, origin: Origin::Length { pieces, end } };
@@ -227,7 +227,7 @@ fn chosen(found: Vec<Passing>) -> Vec<Passing> {
 }
 
 /// A piece that ends at an opening.
-struct End {
+struct PieceEnd {
     /// As drawn.
     piece: String,
     /// Whether x is the coordinate that runs along the grain.
@@ -240,7 +240,7 @@ struct End {
     room: f64,
 }
 
-impl End {
+impl PieceEnd {
     fn of(piece: &Piece, is_hem: impl Fn(&str) -> bool) -> Option<Self> {
         let ring = &piece.loops[0];
         let across = piece.warp.x.abs() > piece.warp.y.abs();
@@ -267,10 +267,10 @@ impl End {
 }
 
 /// Pieces that end at one line of their drawings are lengthened in one: they may be like one another.
-fn together(ends: &[End]) -> Vec<Vec<&End>> {
-    let mut out: Vec<Vec<&End>> = Vec::new();
+fn together(ends: &[PieceEnd]) -> Vec<Vec<&PieceEnd>> {
+    let mut out: Vec<Vec<&PieceEnd>> = Vec::new();
     for end in ends {
-        let is_same = |other: &End| {
+        let is_same = |other: &PieceEnd| {
             (other.across, other.falling) == (end.across, end.falling) && (other.from - end.from).abs() * MM < TENTH
         };
         match out.iter_mut().find(|group| is_same(group[0])) {
@@ -282,7 +282,7 @@ fn together(ends: &[End]) -> Vec<Vec<&End>> {
 }
 
 /// Pieces made longer before their opening, over a stretch in metres.
-fn lengthened(ends: &[&End], mm: f64, stretch: f64, unit: Unit) -> AlterationFile {
+fn lengthened(ends: &[&PieceEnd], mm: f64, stretch: f64, unit: Unit) -> AlterationFile {
     let first = ends[0];
     let at = if first.falling { first.from } else { first.from - stretch };
     let tenths = |x: f64| (x * MM / TENTH).round() * TENTH;

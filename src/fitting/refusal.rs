@@ -2,7 +2,7 @@
 
 use super::figure::Figure;
 use super::knob::Knob;
-use super::solve::Model;
+use super::solve::FigureModel;
 use super::words::amount_of;
 
 /// How far a figure may be off its aim and yet be had, in tolerances.
@@ -13,7 +13,7 @@ const AT_END: f64 = 1e-3;
 const UNMOVED: f64 = 0.5;
 
 /// The reasons, the first of them the plainest. Empty where the model has all figures.
-pub(super) fn reasons(model: &Model, figures: &[Figure], knobs: &[Knob]) -> Vec<String> {
+pub(super) fn reasons(model: &FigureModel, figures: &[Figure], knobs: &[Knob]) -> Vec<String> {
     let ranges: Vec<[f64; 2]> = knobs.iter().map(|k| k.range).collect();
     let look = Look { model, figures, knobs, ranges };
     let lone: Vec<usize> = (0..figures.len()).filter(|&w| look.off(&[w]) > HAD).collect();
@@ -30,7 +30,7 @@ pub(super) fn reasons(model: &Model, figures: &[Figure], knobs: &[Knob]) -> Vec<
 }
 
 struct Look<'a> {
-    model: &'a Model,
+    model: &'a FigureModel,
     figures: &'a [Figure],
     knobs: &'a [Knob],
     ranges: Vec<[f64; 2]>,

@@ -2,7 +2,7 @@
 
 use crate::geometry::{MM, Vec3};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
-use crate::pattern::{Garment, GarmentFile, Seam, SeamFile, SeamKind};
+use crate::pattern::{Garment, GarmentFile, Seam, SeamFile, SeamKind, Side};
 use crate::pipeline::Job;
 use crate::report::Girth;
 
@@ -16,14 +16,14 @@ const AT_END: f64 = 0.08;
 const SHORT: f64 = 0.06;
 
 /// A girth of the body on the garment: a plane.
-pub(super) struct Plane {
+pub(super) struct GirthPlane {
     /// Of the trunk or of a limb.
     part: PartKind,
     center: Vec3,
     axis: Vec3,
 }
 
-impl Plane {
+impl GirthPlane {
     /// The plane in which a girth was measured.
     pub(super) fn new(girth: &Girth, body: &Mannequin) -> Option<Self> {
         let sides =
@@ -77,7 +77,7 @@ pub(super) struct Passing {
 }
 
 /// The seams of a garment that run along the body and pass a girth, as they are worn at `at`.
-pub(super) fn passing(plane: &Plane, file: &GarmentFile, job: &Job, at: &[Vec3]) -> Vec<Passing> {
+pub(super) fn passing(plane: &GirthPlane, file: &GarmentFile, job: &Job, at: &[Vec3]) -> Vec<Passing> {
     file.seams.iter().filter(|seam| is_plain(seam)).filter_map(|seam| pass(plane, seam, job, at)).collect()
 }
 
@@ -89,14 +89,11 @@ pub(super) fn is_plain(seam: &SeamFile) -> bool {
 
 /// Seams of a garment that come from one of its file.
 fn copies<'a>(garment: &'a Garment, name: &'a str) -> impl Iterator<Item = (usize, &'a Seam)> {
-    let is_copy = move |seam: &Seam| {
-        let rest = seam.name.strip_prefix(name);
-        seam.kind == SeamKind::Written && rest.is_some_and(|rest| matches!(rest, "" | ".L" | ".R"))
-    };
+    let is_copy = move |seam: &Seam| seam.kind == SeamKind::Written && Side::is_copy(&seam.name, name);
     garment.seams.iter().enumerate().filter(move |(_, seam)| is_copy(seam))
 }
 
-fn pass(plane: &Plane, seam: &SeamFile, job: &Job, at: &[Vec3]) -> Option<Passing> {
+fn pass(plane: &GirthPlane, seam: &SeamFile, job: &Job, at: &[Vec3]) -> Option<Passing> {
     let name = seam.name.value.as_str();
     let mut found: Option<Passing> = None;
     for (k, copy) in copies(&job.garment, name) {
@@ -123,7 +120,7 @@ fn snapped(share: f64) -> f64 {
 
 /// Share of its first edge as drawn at which a seam passes the plane or nearly does, and where that is. `None` where it
 /// does neither, or runs across.
-fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Option<(f64, Vec3)> {
+fn crossing(plane: &GirthPlane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Option<(f64, Vec3)> {
     let pairs = &job.mesh.seams.get(k)?.pairs;
     let line: Vec<u32> = pairs.iter().map(|pair| pair[0]).collect();
     let place = |n: u32| at[n as usize];

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::draped::{Draped, drape};
+use super::draped::{FittedDrape, drape};
 use super::figure::{Figure, own_wants};
 use super::knob::{Knob, alterations};
-use super::own::Seen;
+use super::own::FirstDrape;
 use super::refusal::reasons;
-use super::solve::{Model, cost};
+use super::solve::{FigureModel, cost};
 use super::words::order;
 use super::{Asked, Fitting, KnobRow, New, WantRow};
 use crate::io::garment::{Loaded, alteration_line, appended, read_text};
@@ -37,11 +37,11 @@ const FAR: f64 = 5.0;
 const FEW: usize = 4;
 
 /// A search under way.
-pub(super) struct Search<'a> {
+pub(super) struct KnobSearch<'a> {
     asked: &'a Asked<'a>,
     figures: Vec<Figure>,
     knobs: Vec<Knob>,
-    model: Model,
+    model: FigureModel,
     /// Figures of the garment as it was.
     before: Vec<f64>,
     first: Report,
@@ -51,9 +51,9 @@ pub(super) struct Search<'a> {
 }
 
 /// Amounts of a garment that was draped, its figures and the drape.
-type Tried = (Vec<f64>, Vec<f64>, Draped);
+type Tried = (Vec<f64>, Vec<f64>, FittedDrape);
 
-impl<'a> Search<'a> {
+impl<'a> KnobSearch<'a> {
     /// Drapes the garment, and finds its figures and knobs.
     pub(super) fn begin(asked: &'a Asked<'a>, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, PipelineError> {
         let job = Job::new(asked.file, asked.loaded.clone(), asked.overrides)?;
@@ -65,13 +65,13 @@ impl<'a> Search<'a> {
             None => own_wants(&asked.loaded.garment, &report),
         };
         let figures: Vec<Figure> = wants.iter().map(Figure::new).collect();
-        let seen = Seen { loaded: asked.loaded, job: &job, at: run.last().unwrap_or_default(), report: &report };
+        let seen = FirstDrape { loaded: asked.loaded, job: &job, at: run.last().unwrap_or_default(), report: &report };
         let knobs = knobs(asked, &figures, &seen);
         let missing = figures.iter().filter(|f| f.measured(&report).is_none());
         let refused: Vec<String> = missing.map(Figure::missing).collect();
         let values = figures.iter().map(|f| f.measured(&report).unwrap_or(f64::NAN)).collect::<Vec<f64>>();
         let slopes = vec![vec![0.0; knobs.len()]; figures.len()];
-        let model = Model { at: vec![0.0; knobs.len()], values: values.clone(), slopes };
+        let model = FigureModel { at: vec![0.0; knobs.len()], values: values.clone(), slopes };
         let hanging = Earlier::of(&run);
         Ok(Self { asked, figures, knobs, model, before: values, first: report, hanging, drapes: 1, refused })
     }
@@ -244,7 +244,11 @@ impl<'a> Search<'a> {
     }
 
     /// The new file with these amounts, draped from nothing.
-    fn verified(&mut self, at: &[f64], progress: &mut dyn FnMut(&str, f64)) -> Result<(New, Draped), PipelineError> {
+    fn verified(
+        &mut self,
+        at: &[f64],
+        progress: &mut dyn FnMut(&str, f64),
+    ) -> Result<(New, FittedDrape), PipelineError> {
         let list = alterations(&self.knobs, at);
         let new = appended(self.asked.new, self.asked.loaded.text(), &list)?;
         let loaded = read_text(&self.asked.loaded.garment.name, self.asked.new, &new.text)?;
@@ -308,7 +312,7 @@ impl<'a> Search<'a> {
 
 /// The knobs of the file of wants, or those that are found for figures: for all if these are few, else for those that
 /// are not what they should be.
-fn knobs(asked: &Asked, figures: &[Figure], seen: &Seen) -> Vec<Knob> {
+fn knobs(asked: &Asked, figures: &[Figure], seen: &FirstDrape) -> Vec<Knob> {
     let given = asked.wants.map_or(&[][..], |file| &file.knobs[..]);
     if !given.is_empty() {
         return given.iter().map(Knob::given).collect();

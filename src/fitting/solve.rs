@@ -18,7 +18,7 @@ const HALVINGS: i32 = 40;
 
 /// Figures at a setting of the knobs, and how they change with each.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Model {
+pub(super) struct FigureModel {
     /// Amounts of the knobs, mm.
     pub(super) at: Vec<f64>,
     /// The figures there.
@@ -27,7 +27,7 @@ pub(super) struct Model {
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
-impl Model {
+impl FigureModel {
     /// The figures at another setting.
     pub(super) fn predicted(&self, at: &[f64]) -> Vec<f64> {
         let change = |slopes: &Vec<f64>| -> f64 { slopes.iter().zip(at.iter().zip(&self.at)).map(by).sum() };
@@ -52,8 +52,8 @@ impl Model {
         (self.at, self.values) = (at.to_vec(), values.to_vec());
     }
 
-    /// The setting that suits the figures `of` best, of those within `ranges`. What is to be least is convex, so that
-    /// Newton steps with the knobs that are not held by their ends come to it.
+    /// The setting that suits the figures `of` best, of those within `ranges`. The sum to be minimized is convex,
+    /// so that Newton steps with the knobs that are not held by their ends reach its minimum.
     pub(super) fn best(&self, figures: &[Figure], of: &[usize], ranges: &[[f64; 2]]) -> Vec<f64> {
         let within = |at: Vec<f64>| -> Vec<f64> { at.iter().zip(ranges).map(|(x, r)| x.clamp(r[0], r[1])).collect() };
         let mut at = within(self.at.clone());
@@ -134,8 +134,12 @@ mod tests {
         Figure::new(&WantFile::Ease(girth.into(), Wanted { from: Some(1e-3 * mm[0]), to: Some(1e-3 * mm[1]) }))
     }
 
-    fn model(slopes: &[[f64; 2]]) -> Model {
-        Model { at: vec![0.0; 2], values: vec![0.0; slopes.len()], slopes: slopes.iter().map(|s| s.to_vec()).collect() }
+    fn model(slopes: &[[f64; 2]]) -> FigureModel {
+        FigureModel {
+            at: vec![0.0; 2],
+            values: vec![0.0; slopes.len()],
+            slopes: slopes.iter().map(|s| s.to_vec()).collect(),
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //! contact", equation 6): nothing at the end of the reach, and no end where they meet.
 
 use super::overlap::{crossing, near};
-use super::spring::{Elastic, Spring};
+use super::spring::{Elastic, LengthSpring};
 use crate::geometry::{Vec2, nearest_on_segment};
 
 /// Distance at which rims begin to push, metres: twice what a person can see or cut.
@@ -24,9 +24,9 @@ pub(super) struct Barrier {
 }
 
 /// A vertex that is pushed by a side.
-struct Push {
+struct SidePush {
     /// As the line from the side's nearest point to the vertex; its stiffness is that of the push.
-    line: Spring,
+    line: LengthSpring,
     /// Its energy, m².
     energy: f64,
     /// The derivative of that by the distance, m.
@@ -73,11 +73,11 @@ impl Barrier {
     }
 
     /// The lines along which there are pushes now, with their stiffness.
-    pub(super) fn lines(&self, flat: &[Vec2]) -> Vec<Spring> {
+    pub(super) fn lines(&self, flat: &[Vec2]) -> Vec<LengthSpring> {
         self.pushes(flat).into_iter().map(|push| push.line).collect()
     }
 
-    fn pushes(&self, flat: &[Vec2]) -> Vec<Push> {
+    fn pushes(&self, flat: &[Vec2]) -> Vec<SidePush> {
         let at = self.at(flat);
         self.pushes_of(&at, &self.near(&at))
     }
@@ -95,7 +95,7 @@ impl Barrier {
     }
 
     /// Every vertex begins one side.
-    fn pushes_of(&self, at: &[[Vec2; 2]], pairs: &[[usize; 2]]) -> Vec<Push> {
+    fn pushes_of(&self, at: &[[Vec2; 2]], pairs: &[[usize; 2]]) -> Vec<SidePush> {
         let both = pairs.iter().flat_map(|&[i, j]| [[i, j], [j, i]]);
         both.filter(|&[i, j]| !self.is_beside(i, j)).filter_map(|[i, j]| self.push(at, i, j)).collect()
     }
@@ -108,7 +108,7 @@ impl Barrier {
     }
 
     /// How the beginning of side `i` is pushed by side `j`.
-    fn push(&self, at: &[[Vec2; 2]], i: usize, j: usize) -> Option<Push> {
+    fn push(&self, at: &[[Vec2; 2]], i: usize, j: usize) -> Option<SidePush> {
         let (share, distance) = nearest_on_segment(at[i][0], at[j]);
         let x = distance / REACH;
         if x >= 1.0 {
@@ -120,8 +120,8 @@ impl Barrier {
         let bend = -2.0 * log + 4.0 * gap / x + (gap / x).powi(2);
         // A spring's stiffness is twice its weight over its target's square.
         let elastic = Elastic { target: REACH, weight: 0.5 * weight * bend, pull: 0.0 };
-        Some(Push {
-            line: Spring { nodes: [v, a, b], shares: [1.0, share - 1.0, -share], elastic },
+        Some(SidePush {
+            line: LengthSpring { nodes: [v, a, b], shares: [1.0, share - 1.0, -share], elastic },
             energy: -weight * gap * gap * log,
             slope: weight / REACH * (2.0 * gap * log - gap * gap / x),
         })
@@ -184,7 +184,7 @@ mod tests {
         wider[3].x += STEP;
         let numeric = (gradient(&wider)[3].x - at[3].x) / STEP;
         let lines = barrier.lines(&flat);
-        let share = |s: &Spring| {
+        let share = |s: &LengthSpring| {
             let k = s.nodes.iter().position(|&v| v == 3).unwrap_or(0);
             s.elastic.stiffness() * (s.along(&flat).normalize().x * s.shares[k]).powi(2)
         };

@@ -5,8 +5,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::energy::Energy;
-use super::spring::{Chain, Elastic, Spring, Springs};
+use super::energy::FlatEnergy;
+use super::spring::{Chain, Elastic, LengthSpring, Springs};
 use crate::geometry::sorted_pair;
 
 /// Stiffness of single edges, and of the braces over them, against that of the chain they are in. On a bodice without
@@ -14,14 +14,14 @@ use crate::geometry::sorted_pair;
 /// and 0.20 % and 3.3 % with 10⁻⁴, by 0.15 and 0.19 % and 3.7 % with this, by 0.15 and 0.18 % and 4.3 % with 10⁻⁵.
 const EVENNESS: f64 = 5e-5;
 
-impl Energy {
+impl FlatEnergy {
     /// The same energy with what every held edge of `rims` had to be now held of every chain of them from one of
     /// `breaks` to the next, or of a whole rim without any.
     pub(super) fn with_chains(self, rims: &[Vec<u32>], breaks: &HashSet<u32>) -> Self {
         let held = self.held().len();
         let (edges, braces) = self.springs.split_at(held);
-        let of_ends = |s: &Spring| (sorted_pair([s.nodes[0], s.nodes[1]]), *s);
-        let edges: HashMap<[u32; 2], Spring> = edges.iter().map(of_ends).collect();
+        let of_ends = |s: &LengthSpring| (sorted_pair([s.nodes[0], s.nodes[1]]), *s);
+        let edges: HashMap<[u32; 2], LengthSpring> = edges.iter().map(of_ends).collect();
         let mut links = Vec::with_capacity(self.springs.len());
         let mut chains: Vec<Chain> = Vec::new();
         for rim in rims {
@@ -51,27 +51,27 @@ impl Chain {
     }
 }
 
-fn softened(spring: &Spring) -> Spring {
+fn softened(spring: &LengthSpring) -> LengthSpring {
     let weight = EVENNESS * spring.elastic.weight;
-    Spring { elastic: Elastic { weight, ..spring.elastic }, ..*spring }
+    LengthSpring { elastic: Elastic { weight, ..spring.elastic }, ..*spring }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::element::{Element, Taken};
+    use super::super::element::{FlatElement, Taken};
     use super::super::inverse::Inverse;
     use super::super::law::Law;
     use super::*;
     use crate::geometry::Vec2;
 
     /// A square of two triangles whose sides are all too short, held in two chains, and its crooked place.
-    fn square() -> (Energy, Vec<Vec2>) {
+    fn square() -> (FlatEnergy, Vec<Vec2>) {
         let rim: Vec<u32> = vec![0, 1, 2, 3];
         let at = [Vec2::zeros(), Vec2::x(), Vec2::new(1.0, 1.0), Vec2::y()];
-        let elements = [[0, 1, 2], [0, 2, 3]].map(|c: [u32; 3]| Element::from_plane(c, c.map(|v| at[v as usize])));
-        let side = |k: usize| Spring::between(sorted_pair([rim[k], rim[(k + 1) % 4]]), 0.9 + 0.1 * k as f64, 3.0);
+        let elements = [[0, 1, 2], [0, 2, 3]].map(|c: [u32; 3]| FlatElement::from_plane(c, c.map(|v| at[v as usize])));
+        let side = |k: usize| LengthSpring::between(sorted_pair([rim[k], rim[(k + 1) % 4]]), 0.9 + 0.1 * k as f64, 3.0);
         let springs = Springs { held: (0..4).map(side).collect(), ..Springs::default() };
-        let every = Energy::new(4, elements.into(), springs, Law { warp: Some(Vec2::y()), ..Law::default() });
+        let every = FlatEnergy::new(4, elements.into(), springs, Law { warp: Some(Vec2::y()), ..Law::default() });
         let energy = every.with_chains(&[rim], &[1, 3].into());
         (energy, vec![Vec2::new(0.0, 0.1), Vec2::new(1.2, 0.0), Vec2::new(1.1, 1.3), Vec2::new(-0.1, 1.0)])
     }

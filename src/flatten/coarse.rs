@@ -1,7 +1,7 @@
 //! The first part of the way down, with few unknowns.
 //!
-//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. What the grid's triangles
-//! do to the piece is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a
+//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. The distortion by the
+//! grid's triangles is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a
 //! surface that is curved inside its cells are seen as they are. The long waves of the way, which take an iteration on
 //! the piece itself the most steps, are found here for a small part of their price.
 
@@ -9,10 +9,10 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix2;
 
-use super::element::Element;
-use super::energy::Energy;
-use super::relax::{self, Descent, Goal};
-use super::spring::{Spring, Springs};
+use super::element::FlatElement;
+use super::energy::FlatEnergy;
+use super::relax::{self, EnergyDescent, Goal};
+use super::spring::{LengthSpring, Springs};
 use crate::geometry::Vec2;
 
 /// Cells of the grid over a piece, about.
@@ -30,16 +30,16 @@ const GOAL: Goal = Goal { tolerance: 1e-2, max_iterations: 50, holds: 0, exact: 
 
 /// Moves `flat`, which must have no flipped triangle, towards a minimum of `energy`;
 /// leaves it where that does not help.
-pub(super) fn approach(energy: &Energy, flat: &mut [Vec2]) {
+pub(super) fn approach(energy: &FlatEnergy, flat: &mut [Vec2]) {
     let cells = if energy.law.warp.is_some() { WOVEN_CELLS } else { CELLS };
     if (flat.len() as f64) < cells * VERTICES_PER_CELL {
         return;
     }
-    let grid = Grid::new(energy, flat, cells);
+    let grid = CoarseGrid::new(energy, flat, cells);
     let (elements, springs) = (grid.elements(energy, flat), grid.springs(energy, flat));
-    let mut coarse = Energy::new(grid.nodes.len(), elements, springs, energy.law);
+    let mut coarse = FlatEnergy::new(grid.nodes.len(), elements, springs, energy.law);
     let mut moved = grid.nodes.clone();
-    let descent = Descent::new(&coarse);
+    let descent = EnergyDescent::new(&coarse);
     if descent.and_then(|mut d| d.down(&mut coarse, &mut moved, &GOAL, None)).is_err() {
         return;
     }
@@ -53,7 +53,7 @@ pub(super) fn approach(energy: &Energy, flat: &mut [Vec2]) {
 /// A triangle of the grid: column, row, and whether it is the upper one of its square.
 type Cell = (i32, i32, bool);
 
-struct Grid {
+struct CoarseGrid {
     low: Vec2,
     size: f64,
     /// Positions.
@@ -64,8 +64,8 @@ struct Grid {
     cell_of_vertex: Vec<u32>,
 }
 
-impl Grid {
-    fn new(energy: &Energy, flat: &[Vec2], cells: f64) -> Self {
+impl CoarseGrid {
+    fn new(energy: &FlatEnergy, flat: &[Vec2], cells: f64) -> Self {
         let low = flat.iter().fold(Vec2::repeat(f64::INFINITY), |low, p| low.inf(p));
         let area: f64 = energy.elements.iter().map(|e| e.area * e.jacobian(flat).determinant()).sum();
         let mut grid =
@@ -130,7 +130,7 @@ impl Grid {
     }
 
     /// Of every cell a few of the piece's triangles, with the weight of all in it.
-    fn elements(&self, energy: &Energy, flat: &[Vec2]) -> Vec<Element> {
+    fn elements(&self, energy: &FlatEnergy, flat: &[Vec2]) -> Vec<FlatElement> {
         let mut out = Vec::with_capacity(SAMPLES * self.cells.len());
         for (nodes, (_, _, upper), inside) in &self.cells {
             let chosen = inside.iter().step_by(inside.len().div_ceil(SAMPLES)).map(|&t| energy.elements[t as usize]);
@@ -139,18 +139,18 @@ impl Grid {
             out.extend(chosen.map(|e| {
                 let jacobian = e.jacobian(flat).transpose();
                 let gradients = self.gradients(*upper).map(|g| jacobian * g);
-                Element { corners: *nodes, gradients, area: e.area * all / looked_at }
+                FlatElement { corners: *nodes, gradients, area: e.area * all / looked_at }
             }));
         }
         out
     }
 
     /// The springs, as they turn and stretch with the cell of their first vertex.
-    fn springs(&self, energy: &Energy, flat: &[Vec2]) -> Springs {
-        let coarse = |s: &Spring| {
+    fn springs(&self, energy: &FlatEnergy, flat: &[Vec2]) -> Springs {
+        let coarse = |s: &LengthSpring| {
             let (nodes, (_, _, upper), _) = &self.cells[self.cell_of_vertex[s.nodes[0] as usize] as usize];
             let along = s.along(flat);
-            Spring { nodes: *nodes, shares: self.gradients(*upper).map(|g| g.dot(&along)), ..*s }
+            LengthSpring { nodes: *nodes, shares: self.gradients(*upper).map(|g| g.dot(&along)), ..*s }
         };
         let (held, free) = energy.springs.split_at(energy.held().len());
         Springs {

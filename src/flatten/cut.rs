@@ -12,7 +12,7 @@ use crate::geometry::{DisjointSets, Topology, TriMesh, rim_loops, sorted_pair};
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
 pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Option<Vec<u32>> {
     let topology = Topology::new(&surface.triangles);
-    let tree = Tree::new(surface, &topology, solid, &[from], false);
+    let tree = ShortestWays::new(surface, &topology, solid, &[from], false);
     tree.distance.get(to as usize).filter(|d| d.is_finite())?;
     Some(tree.path(to))
 }
@@ -32,7 +32,7 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     let open = topology.rim_edges().map(|e| e.ends[0]).min();
     let mut cuts: Vec<[u32; 2]> = match (open, is_sphere) {
         (None, true) => {
-            let far = Tree::new(surface, &topology, solid, &[0], true).farthest();
+            let far = ShortestWays::new(surface, &topology, solid, &[0], true).farthest();
             edges_of(&slit(surface, &topology, solid, far))
         }
         (None, false) => roots(surface)
@@ -70,7 +70,7 @@ fn joined_rims(surface: &TriMesh, topology: &Topology, solid: &Solid, rims: &[Ve
     let mut left: Vec<&Vec<u32>> = rims[1..].iter().collect();
     let mut cuts = Vec::new();
     while !left.is_empty() {
-        let tree = Tree::new(surface, topology, solid, &open, false);
+        let tree = ShortestWays::new(surface, topology, solid, &open, false);
         let far = |v: u32| tree.distance[v as usize];
         let nearest = |rim: &[u32]| rim.iter().copied().min_by(|&a, &b| far(a).total_cmp(&far(b)).then(a.cmp(&b)));
         let ends = left.iter().enumerate().filter_map(|(k, rim)| Some((k, nearest(rim)?)));
@@ -85,7 +85,7 @@ fn joined_rims(surface: &TriMesh, topology: &Topology, solid: &Solid, rims: &[Ve
 
 /// Edges along which a surface with handles must be cut, by shortest ways from a root.
 fn opened(surface: &TriMesh, topology: &Topology, solid: &Solid, root: u32) -> Vec<[u32; 2]> {
-    let tree = Tree::new(surface, topology, solid, &[root], true);
+    let tree = ShortestWays::new(surface, topology, solid, &[root], true);
     let in_tree = |e: &[u32; 2]| tree.parent[e[0] as usize] == e[1] || tree.parent[e[1] as usize] == e[0];
     let joined = interlocking(surface, topology, solid, &tree, in_tree);
     let mut cuts = HashSet::new();
@@ -107,14 +107,14 @@ fn opened(surface: &TriMesh, topology: &Topology, solid: &Solid, root: u32) -> V
 pub fn slit_from_rim(surface: &TriMesh, solid: &Solid) -> Vec<u32> {
     let topology = Topology::new(&surface.triangles);
     let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
-    let tree = Tree::new(surface, &topology, solid, &rim, false);
+    let tree = ShortestWays::new(surface, &topology, solid, &rim, false);
     tree.path(tree.farthest())
 }
 
 /// A way from `from` to what is farthest from it, of two edges at least: the ends of a single one stay joined, and a
 /// closed surface is not opened.
 fn slit(surface: &TriMesh, topology: &Topology, solid: &Solid, from: u32) -> Vec<u32> {
-    let direct = Tree::new(surface, topology, solid, &[from], false);
+    let direct = ShortestWays::new(surface, topology, solid, &[from], false);
     let to = direct.farthest();
     let way = direct.path(to);
     if way.len() > 2 {
@@ -122,7 +122,7 @@ fn slit(surface: &TriMesh, topology: &Topology, solid: &Solid, from: u32) -> Vec
     }
     let mut solid = solid.clone();
     solid.insert(sorted_pair([from, to]));
-    Tree::new(surface, topology, &solid, &[from], false).path(to)
+    ShortestWays::new(surface, topology, &solid, &[from], false).path(to)
 }
 
 /// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where
@@ -143,7 +143,7 @@ pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl 
     let is_shut = |v: &u32| on_rim.contains(v) && !may_open(*v);
     let shut = topology.edges.iter().filter(|e| e.ends.iter().any(is_shut)).map(|e| e.ends);
     let solid: Solid = solid.iter().copied().chain(shut).collect();
-    let way = Tree::new(surface, &topology, &solid, &open, false).path(tip);
+    let way = ShortestWays::new(surface, &topology, &solid, &open, false).path(tip);
     if way.len() > 1 { way } else { Vec::new() }
 }
 
@@ -151,7 +151,7 @@ pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl 
 pub type Solid = HashSet<[u32; 2]>;
 
 /// Shortest ways from sources to every vertex.
-pub(super) struct Tree {
+pub(super) struct ShortestWays {
     pub(super) distance: Vec<f64>,
     /// The next vertex on the way back; a source is its own.
     parent: Vec<u32>,
@@ -186,7 +186,7 @@ impl Ord for Next {
     }
 }
 
-impl Tree {
+impl ShortestWays {
     /// With `free_rims` a way along a rim costs nothing: it is cut already.
     pub(super) fn new(surface: &TriMesh, topology: &Topology, solid: &Solid, sources: &[u32], free_rims: bool) -> Self {
         let count = surface.vertices.len();
@@ -244,7 +244,7 @@ fn interlocking(
     surface: &TriMesh,
     topology: &Topology,
     solid: &Solid,
-    tree: &Tree,
+    tree: &ShortestWays,
     in_tree: impl Fn(&[u32; 2]) -> bool,
 ) -> Vec<bool> {
     let far = |k: usize| topology.edges[k].ends.iter().map(|&v| tree.distance[v as usize]).sum::<f64>();

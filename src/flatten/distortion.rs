@@ -7,11 +7,11 @@
 
 use nalgebra::Matrix2;
 
-use super::element::Mode;
+use super::element::CurvatureMode;
 
 /// The weights of the terms.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Weights {
+pub(super) struct TermWeights {
     /// Of the symmetric Dirichlet energy; positive, for it is the wall before a flip.
     pub(super) dirichlet: f64,
     /// Of the squared strain.
@@ -21,7 +21,7 @@ pub(super) struct Weights {
 }
 
 /// Ψ at J; infinite if the triangle is flipped or without area.
-pub(super) fn density(jacobian: &Matrix2<f64>, weights: &Weights) -> f64 {
+pub(super) fn density(jacobian: &Matrix2<f64>, weights: &TermWeights) -> f64 {
     let det = jacobian.determinant();
     if det <= 0.0 {
         return f64::INFINITY;
@@ -36,7 +36,7 @@ pub(super) fn density(jacobian: &Matrix2<f64>, weights: &Weights) -> f64 {
 }
 
 /// The derivative of Ψ by J.
-pub(super) fn stress(jacobian: &Matrix2<f64>, weights: &Weights) -> Matrix2<f64> {
+pub(super) fn stress(jacobian: &Matrix2<f64>, weights: &TermWeights) -> Matrix2<f64> {
     let det = jacobian.determinant();
     let square = jacobian.norm_squared();
     let [e, _, g, _] = halves(jacobian);
@@ -87,7 +87,7 @@ pub(super) fn stretches(jacobian: &Matrix2<f64>) -> (f64, f64) {
 
 /// The four eigenmodes of the second derivative of Ψ by J; Smith, De Goes & Kim 2019, "Analytic eigensystems for
 /// isotropic distortion energies", section 4.
-pub(super) fn modes(jacobian: &Matrix2<f64>, weights: &Weights) -> [Mode; 4] {
+pub(super) fn modes(jacobian: &Matrix2<f64>, weights: &TermWeights) -> [CurvatureMode; 4] {
     let (s, t, u, v) = singular(jacobian);
     let det = s * t;
     let (wall, strain, area) = (0.5 * weights.dirichlet, 2.0 * weights.strain, 2.0 * weights.area);
@@ -105,9 +105,9 @@ pub(super) fn modes(jacobian: &Matrix2<f64>, weights: &Weights) -> [Mode; 4] {
     let framed = |a: f64, b: f64, c: f64, d: f64| u * Matrix2::new(a, b, c, d) * v.transpose();
     let root = std::f64::consts::FRAC_1_SQRT_2;
     [
-        Mode { curvature: mean + radius, mode: framed(cosine, 0.0, 0.0, sine) },
-        Mode { curvature: mean - radius, mode: framed(-sine, 0.0, 0.0, cosine) },
-        Mode { curvature: twist, mode: framed(0.0, -root, root, 0.0) },
-        Mode { curvature: flip, mode: framed(0.0, root, root, 0.0) },
+        CurvatureMode { curvature: mean + radius, mode: framed(cosine, 0.0, 0.0, sine) },
+        CurvatureMode { curvature: mean - radius, mode: framed(-sine, 0.0, 0.0, cosine) },
+        CurvatureMode { curvature: twist, mode: framed(0.0, -root, root, 0.0) },
+        CurvatureMode { curvature: flip, mode: framed(0.0, root, root, 0.0) },
     ]
 }

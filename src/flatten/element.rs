@@ -6,7 +6,7 @@ use crate::geometry::{Vec2, Vec3};
 
 /// A triangle's true shape, prepared.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Element {
+pub(super) struct FlatElement {
     /// Its corners in the flat piece.
     pub(super) corners: [u32; 3],
     /// Gradients of the corners' hat functions in the triangle's own plane, 1/m: J = Σ xₖ gₖᵀ.
@@ -16,7 +16,7 @@ pub(super) struct Element {
 }
 
 /// A direction of curvature of an energy density: `curvature` times the dyad of `mode` with itself.
-pub(super) struct Mode {
+pub(super) struct CurvatureMode {
     pub(super) curvature: f64,
     pub(super) mode: Matrix2<f64>,
 }
@@ -41,7 +41,7 @@ impl Taken {
 /// The pairs of corners a block of second derivatives belongs to.
 pub(super) const CORNER_PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 0), (2, 0), (2, 1)];
 
-impl Element {
+impl FlatElement {
     /// From the true corner positions; the triangle must have an area.
     pub(super) fn new(corners: [u32; 3], [a, b, c]: [Vec3; 3]) -> Self {
         let (u, v) = (b - a, c - a);
@@ -74,7 +74,7 @@ impl Element {
 
     /// Adds a mode's second derivatives by the corner positions, one block for each of [`CORNER_PAIRS`]. Without modes
     /// of negative curvature what remains is the nearest positive semidefinite matrix.
-    pub(super) fn add_mode(&self, mode: &Mode, taken: Taken, blocks: &mut [Matrix2<f64>; 6]) {
+    pub(super) fn add_mode(&self, mode: &CurvatureMode, taken: Taken, blocks: &mut [Matrix2<f64>; 6]) {
         let curvature = taken.of(mode.curvature);
         if curvature != 0.0 {
             let images = self.gradients.map(|g| mode.mode * g);

@@ -6,9 +6,9 @@ use nalgebra::Matrix2;
 
 use super::FlattenError;
 use super::barrier::Barrier;
-use super::element::{CORNER_PAIRS, Element, Taken};
+use super::element::{CORNER_PAIRS, FlatElement, Taken};
 use super::law::Law;
-use super::spring::{Chain, Spring, Springs};
+use super::spring::{Chain, LengthSpring, Springs};
 use crate::geometry::Vec2;
 use crate::linear::{BlockSlot, SymmetricMatrix, SymmetricPattern};
 
@@ -20,11 +20,11 @@ const TIE: f64 = 1e-4;
 /// The numbers of the curvature.
 pub(super) type Real = f64;
 
-/// What a piece's flat position is measured by. Divided by the piece's area, so it has no unit: a uniform stretch by
-/// one per cent both ways costs 2·10⁻⁴.
-pub(super) struct Energy {
-    pub(super) elements: Vec<Element>,
-    pub(super) springs: Vec<Spring>,
+/// The distortion of a piece's flat position. It is divided by the piece's area, so it has no unit: a uniform stretch
+/// by one per cent both ways costs 2·10⁻⁴.
+pub(super) struct FlatEnergy {
+    pub(super) elements: Vec<FlatElement>,
+    pub(super) springs: Vec<LengthSpring>,
     /// The first so many springs get exactly their lengths; the others are only springs.
     held: usize,
     /// Runs of the others whose lengths together are exact.
@@ -33,15 +33,15 @@ pub(super) struct Energy {
     /// The barrier between its rims, where the piece is to be kept from lying on itself.
     pub(super) barrier: Option<Barrier>,
     /// Its pushes when the curvature was last taken.
-    pushes: Vec<Spring>,
+    pushes: Vec<LengthSpring>,
     total_area: f64,
     pub(super) vertices: usize,
     /// Vertices from this one on stay where they are.
     pub(super) free: usize,
 }
 
-impl Energy {
-    pub(super) fn new(vertices: usize, elements: Vec<Element>, springs: Springs, law: Law) -> Self {
+impl FlatEnergy {
+    pub(super) fn new(vertices: usize, elements: Vec<FlatElement>, springs: Springs, law: Law) -> Self {
         let total_area = elements.iter().map(|e| e.area).sum();
         let held = springs.held.len();
         let chains = springs.chains;
@@ -61,7 +61,7 @@ impl Energy {
     }
 
     /// The energy of a part, in the same measure, of which only the first `free` vertices move.
-    pub(super) fn part(&self, vertices: usize, free: usize, elements: Vec<Element>, springs: Springs) -> Self {
+    pub(super) fn part(&self, vertices: usize, free: usize, elements: Vec<FlatElement>, springs: Springs) -> Self {
         Self { total_area: self.total_area, free, ..Self::new(vertices, elements, springs, self.law) }
     }
 
@@ -75,7 +75,7 @@ impl Energy {
     }
 
     /// All that couples vertices besides triangles.
-    fn lines(&self) -> impl Iterator<Item = &Spring> {
+    fn lines(&self) -> impl Iterator<Item = &LengthSpring> {
         self.springs.iter().chain(&self.pushes)
     }
 
@@ -121,13 +121,13 @@ impl Energy {
     }
 }
 
-impl Energy {
+impl FlatEnergy {
     fn chain_length(&self, chain: &Chain, flat: &[Vec2]) -> f64 {
         self.links(chain).iter().map(|s| s.length(flat)).sum()
     }
 
     /// The springs of a chain.
-    fn links(&self, chain: &Chain) -> &[Spring] {
+    fn links(&self, chain: &Chain) -> &[LengthSpring] {
         &self.springs[self.held..][chain.springs.clone()]
     }
 
@@ -155,7 +155,7 @@ impl Energy {
         self.chains.iter().map(slopes).collect()
     }
 
-    pub(super) fn held(&self) -> &[Spring] {
+    pub(super) fn held(&self) -> &[LengthSpring] {
         &self.springs[..self.held]
     }
 
@@ -185,8 +185,8 @@ impl Energy {
     }
 }
 
-/// The second derivative of an [`Energy`], or a positive definite one near it, with the places of its blocks worked out
-/// once.
+/// The second derivative of a [`FlatEnergy`], or a positive definite one near it, with the places of its blocks worked
+/// out once.
 pub(super) struct Curvature {
     matrix: SymmetricMatrix<Real>,
     /// None where a vertex stays where it is.
@@ -196,7 +196,7 @@ pub(super) struct Curvature {
 }
 
 impl Curvature {
-    pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
+    pub(super) fn new(energy: &FlatEnergy) -> Result<Self, FlattenError> {
         let pairs = energy.couplings().into_iter().map(|[a, b]| (a as usize, b as usize));
         let pattern = SymmetricPattern::planar_blocks(energy.free, pairs).map_err(|_| FlattenError::Breakdown)?;
         let pattern = Arc::new(pattern);
@@ -214,8 +214,8 @@ impl Curvature {
         Ok(Self { matrix: SymmetricMatrix::zeros(pattern), element_slots, spring_slots, ties })
     }
 
-    /// Fills the matrix for a position without flipped triangles; what [`Energy::stiff_chains`] adds to it is left out.
-    pub(super) fn update(&mut self, energy: &Energy, flat: &[Vec2], taken: Taken) -> &SymmetricMatrix<Real> {
+    /// Fills the matrix for a position without flipped triangles, without the part of [`FlatEnergy::stiff_chains`].
+    pub(super) fn update(&mut self, energy: &FlatEnergy, flat: &[Vec2], taken: Taken) -> &SymmetricMatrix<Real> {
         self.matrix.clear();
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
             let mut blocks = [Matrix2::zeros(); 6];

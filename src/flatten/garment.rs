@@ -4,9 +4,12 @@ use std::collections::{HashMap, HashSet};
 
 use rayon::prelude::*;
 
-use super::element::Element;
+use super::element::FlatElement;
 use super::overlap::Legs;
-use super::{FlattenError, Itself, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
+use super::{
+    FlatReport, FlattenError, FlattenOptions, Itself, TargetSurface, align, check_start, measure, relax_sheet, start,
+    topology,
+};
 use crate::geometry::{TriMesh, Vec2, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
@@ -32,7 +35,7 @@ pub struct FlatPiece {
     /// As in the garment.
     pub name: String,
     /// The figures.
-    pub report: Report,
+    pub report: FlatReport,
 }
 
 /// Lays every piece of a draped garment flat, holes included. `seams` are the garment's, in the order of
@@ -50,7 +53,7 @@ pub fn flatten_garment(
     cloth: &ClothMesh,
     seams: &[Seam],
     draped: &[Vec3],
-    options: &Options,
+    options: &FlattenOptions,
 ) -> Result<FlatGarment, FlattenError> {
     if draped.len() != cloth.flat.len() {
         return Err(FlattenError::StartLength { expected: cloth.flat.len(), found: draped.len() });
@@ -80,8 +83,8 @@ fn flatten_piece(
     piece: &PieceMesh,
     draped: &[Vec3],
     (targets, gathered): (&Targets, &HashSet<u32>),
-    options: &Options,
-) -> Result<(Vec<Vec2>, Report), FlattenError> {
+    options: &FlattenOptions,
+) -> Result<(Vec<Vec2>, FlatReport), FlattenError> {
     let first = piece.particles.start as u32;
     let surface = TriMesh {
         vertices: draped[piece.particles.clone()].to_vec(),
@@ -95,7 +98,7 @@ fn flatten_piece(
         (Err(_), [rim]) => start::start(&surface, &topology, rim)?.0,
         (Err(flaw), _) => return Err(flaw),
     };
-    let mut sheet = Sheet::as_it_is(&surface, topology, rims);
+    let mut sheet = TargetSurface::as_it_is(&surface, topology, rims);
     sheet.warp = piece.warp;
     sheet.legs = legs_of_darts(cloth, piece);
     let mut forced = draw_out(&mut sheet, first, targets);
@@ -111,7 +114,7 @@ type Targets = HashMap<[u32; 2], f64>;
 
 /// Edges along elastic get their drawn lengths, whatever is sewn to them. Of another edge that several seams join, as a
 /// waist between band and lining, the first seam's target counts: a later one that took it over would leave the first
-/// one's sides with two lengths. What a later even seam joins to such an edge takes its target.
+/// one's sides with two lengths. An edge that a later even seam joins to such an edge takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let length = |[a, b]: [u32; 2]| (cloth.flat[b as usize] - cloth.flat[a as usize]).norm();
     let mut targets: Targets = cloth.drawn_in().into_keys().map(|ends| (ends, length(ends))).collect();
@@ -166,7 +169,7 @@ fn legs_of_darts(cloth: &ClothMesh, piece: &PieceMesh) -> Legs {
 
 /// Gives the sheet's rim its wanted lengths, and the triangles on it shapes to match; gives the vertices that a seam
 /// draws in or out by much.
-fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) -> HashSet<u32> {
+fn draw_out(sheet: &mut TargetSurface<'_>, first: u32, targets: &Targets) -> HashSet<u32> {
     let mut drawn = HashSet::new();
     for (edge, target) in sheet.topology.rim_edges().zip(&mut sheet.rim_targets) {
         let [a, b] = edge.ends;
@@ -186,14 +189,14 @@ fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) -> HashSet<u32
 
 /// Gives triangles that a seam or elastic forces, those with a corner on it, their drawn shape: as draped they show
 /// what draws them in, not the cloth. A strip gathered to a sixth would be flattened into a coil.
-fn let_out(sheet: &mut Sheet<'_>, drawn: &[Vec2], forced: &HashSet<u32>) {
+fn let_out(sheet: &mut TargetSurface<'_>, drawn: &[Vec2], forced: &HashSet<u32>) {
     for element in &mut sheet.elements {
         let corners = element.corners;
         if !corners.iter().any(|v| forced.contains(v)) {
             continue;
         }
         let drawn = corners.map(|v| drawn[v as usize]);
-        *element = Element::from_plane(corners, drawn);
+        *element = FlatElement::from_plane(corners, drawn);
         element.area *= SOFT;
         let before = start::angles(corners.map(|v| sheet.surface.vertices[v as usize]));
         let after = start::angles(drawn.map(|p| p.push(0.0)));
@@ -202,7 +205,7 @@ fn let_out(sheet: &mut Sheet<'_>, drawn: &[Vec2], forced: &HashSet<u32>) {
 }
 
 /// The shape of triangle `t` when it is drawn out along its edge `ends`.
-fn stretched(surface: &TriMesh, t: usize, ends: [u32; 2], ratio: f64) -> Element {
+fn stretched(surface: &TriMesh, t: usize, ends: [u32; 2], ratio: f64) -> FlatElement {
     let mut corners = surface.triangles[t];
     // Rim edge first: a triangle's corners may be turned round without changing it.
     while ends.contains(&corners[2]) {
@@ -214,7 +217,7 @@ fn stretched(surface: &TriMesh, t: usize, ends: [u32; 2], ratio: f64) -> Element
     let foot = (c - a).dot(&along);
     let height = (c - a).cross(&along).norm();
     let plane = [Vec2::zeros(), Vec2::new(length * ratio, 0.0), Vec2::new(foot * ratio, height)];
-    Element::from_plane(corners, plane)
+    FlatElement::from_plane(corners, plane)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::cut::{Solid, Tree};
+use super::cut::{ShortestWays, Solid};
 use crate::geometry::{Topology, TriMesh, rim_loops};
 
 /// Vertices of the rim from which ways are tried, spread evenly: more would find ways that are a few per cent shorter
@@ -21,7 +21,7 @@ pub fn halving(surface: &TriMesh, solid: &Solid) -> Vec<u32> {
     let total = places[rim.len()];
     let clear = |way: &[u32]| way.len() > 2 && !way[1..way.len() - 1].iter().any(|v| on_rim.contains(v));
     let ways = (0..rim.len()).step_by(rim.len().div_ceil(TRIED)).filter_map(|k| {
-        let tree = Tree::new(surface, &topology, solid, &[rim[k]], false);
+        let tree = ShortestWays::new(surface, &topology, solid, &[rim[k]], false);
         let share = |j: usize| {
             let along = (places[j] - places[k]).abs();
             tree.distance[rim[j] as usize] / along.min(total - along)

@@ -8,7 +8,7 @@ use crate::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 
 /// Weights of the graph whose mean-value property defines "harmonic".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weights {
+pub(super) enum GraphWeights {
     /// Half the cotangents of the angles opposite (Pinkall & Polthier 1993): the finite element Laplacian.
     Cotangent,
     /// All one: positive, so that a convex rim gives a map without flips (Tutte 1963, Floater 1997).
@@ -30,7 +30,7 @@ impl Laplacian {
         surface: &TriMesh,
         topology: &Topology,
         on_rim: &[bool],
-        weights: Weights,
+        weights: GraphWeights,
     ) -> Result<Self, FlattenError> {
         let mut inner_count = 0;
         let inner: Vec<Option<u32>> = on_rim
@@ -75,8 +75,8 @@ impl Laplacian {
     }
 }
 
-fn edge_weight(surface: &TriMesh, ends: [u32; 2], triangles: &[Option<u32>; 2], weights: Weights) -> f64 {
-    if weights == Weights::Uniform {
+fn edge_weight(surface: &TriMesh, ends: [u32; 2], triangles: &[Option<u32>; 2], weights: GraphWeights) -> f64 {
+    if weights == GraphWeights::Uniform {
         return 1.0;
     }
     let cotangent = |t: u32| {

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::FlattenError;
 use super::element::Taken;
-use super::energy::{Curvature, Energy, Real};
+use super::energy::{Curvature, FlatEnergy, Real};
 use crate::geometry::Vec2;
 use crate::linear::Cholesky;
 
@@ -32,7 +32,7 @@ pub(super) struct Inverse {
 
 impl Inverse {
     /// Prepared for the couplings of an energy, but that of no position yet.
-    pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
+    pub(super) fn new(energy: &FlatEnergy) -> Result<Self, FlattenError> {
         let curvature = Curvature::new(energy)?;
         let factor = Cholesky::new(curvature.pattern().clone()).map_err(|_| FlattenError::Breakdown)?;
         Ok(Self { curvature, factor, answers: DMatrix::zeros(0, 0), chains: None, wait: [0, 0] })
@@ -41,7 +41,7 @@ impl Inverse {
     /// Factors the curvature at `flat`, made positive, and tied down more and more where it is not so to rounding. In a
     /// weave the true one is taken where it is positive: its stiff threads pull about as much as they push, so that the
     /// positive part alone is far too stiff across them. That is tried the less often the more often it was not.
-    pub(super) fn renew(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
+    pub(super) fn renew(&mut self, energy: &FlatEnergy, flat: &[Vec2]) -> Result<(), FlattenError> {
         if energy.law.warp.is_some() && self.take_all(energy, flat) {
             return Ok(());
         }
@@ -54,7 +54,7 @@ impl Inverse {
     }
 
     /// Factors the true curvature, if it is its turn; whether it is positive.
-    fn take_all(&mut self, energy: &Energy, flat: &[Vec2]) -> bool {
+    fn take_all(&mut self, energy: &FlatEnergy, flat: &[Vec2]) -> bool {
         let [left, waited] = self.wait;
         if left > 0 {
             self.wait = [left - 1, waited];
@@ -67,7 +67,7 @@ impl Inverse {
         positive
     }
 
-    fn take_in(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
+    fn take_in(&mut self, energy: &FlatEnergy, flat: &[Vec2]) -> Result<(), FlattenError> {
         let chains = energy.stiff_chains(flat);
         if chains.is_empty() {
             return Ok(());

@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix2;
 
-use super::distortion::Weights;
-use super::element::Mode;
+use super::distortion::TermWeights;
+use super::element::CurvatureMode;
 use super::{distortion, woven};
 use crate::geometry::Vec2;
 
@@ -11,7 +11,7 @@ use crate::geometry::Vec2;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Law {
     /// The isotropic term.
-    pub(super) weights: Weights,
+    pub(super) weights: TermWeights,
     /// Flat warp direction, where threads count (with weight 1).
     pub(super) warp: Option<Vec2>,
 }
@@ -33,7 +33,7 @@ impl Law {
     }
 
     /// Hands out the directions of its curvature.
-    pub(super) fn modes(&self, jacobian: &Matrix2<f64>, mut add: impl FnMut(&Mode)) {
+    pub(super) fn modes(&self, jacobian: &Matrix2<f64>, mut add: impl FnMut(&CurvatureMode)) {
         distortion::modes(jacobian, &self.weights).iter().for_each(&mut add);
         for mode in self.warp.into_iter().flat_map(|warp| woven::modes(jacobian, warp)) {
             add(&mode);
@@ -47,8 +47,8 @@ mod tests {
 
     const STEP: f64 = 1e-6;
     const LAWS: [Law; 2] = [
-        Law { weights: Weights { dirichlet: 1.0, strain: 0.7, area: 0.2 }, warp: None },
-        Law { weights: Weights { dirichlet: 0.1, strain: 0.0, area: 0.3 }, warp: Some(Vec2::new(0.6, 0.8)) },
+        Law { weights: TermWeights { dirichlet: 1.0, strain: 0.7, area: 0.2 }, warp: None },
+        Law { weights: TermWeights { dirichlet: 0.1, strain: 0.0, area: 0.3 }, warp: Some(Vec2::new(0.6, 0.8)) },
     ];
 
     fn moved(jacobian: &Matrix2<f64>, k: usize, by: f64) -> Matrix2<f64> {

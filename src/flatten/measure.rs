@@ -2,21 +2,21 @@
 
 use std::f64::consts::TAU;
 
-use super::Sheet;
+use super::TargetSurface;
 use super::distortion::stretches;
-use super::element::Element;
+use super::element::FlatElement;
 use super::overlap::crossings_beside;
-use super::relax::Outcome;
+use super::relax::Relaxed;
 use super::start::angle_sums;
 use super::woven;
 use crate::geometry::{TriMesh, Vec2, Vec3};
 
-/// Share of the area that may be strained more than [`Report::strain_p99`] says: single triangles at a corner.
+/// Share of the area that may be strained more than [`FlatReport::strain_p99`] says: single triangles at a corner.
 const LARGEST_SHARE: f64 = 0.01;
 
 /// The errors of one flat piece. Lengths in metres, areas in square metres, errors as fractions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
+pub struct FlatReport {
     /// Energy at the end: about the mean square strain, plus what the mode weighs besides.
     pub energy: f64,
     /// Steps taken.
@@ -92,12 +92,12 @@ pub struct Threads {
 }
 
 impl Threads {
-    fn of(sheet: &Sheet<'_>, flat: &[Vec2]) -> Self {
+    fn of(sheet: &TargetSurface<'_>, flat: &[Vec2]) -> Self {
         let mut sums = Self::default();
         let mut strains = [const { Vec::new() }; 2];
         let mut area = 0.0;
         for (t, &corners) in sheet.surface.triangles.iter().enumerate() {
-            let element = Element::new(corners, sheet.surface.corners(t));
+            let element = FlatElement::new(corners, sheet.surface.corners(t));
             let [warp, weft, shear] = woven::measured(&element.jacobian(flat), sheet.warp);
             strains[0].push([warp.abs(), element.area]);
             strains[1].push([weft.abs(), element.area]);
@@ -120,7 +120,7 @@ pub(super) fn length(surface: &TriMesh, ends: [u32; 2]) -> f64 {
     (surface.vertices[ends[1] as usize] - surface.vertices[ends[0] as usize]).norm()
 }
 
-pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Report {
+pub(super) fn report(sheet: &TargetSurface<'_>, flat: &[Vec2], outcome: &Relaxed) -> FlatReport {
     let (surface, topology) = (sheet.surface, &sheet.topology);
     let flat_length = |ends: [u32; 2]| (flat[ends[1] as usize] - flat[ends[0] as usize]).norm();
     let error = |after: f64, before: f64| (after - before).abs() / before;
@@ -131,7 +131,7 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
     let angles = Angles::of(sheet, flat);
     let edges = topology.edges.iter().map(|e| error(flat_length(e.ends), length(surface, e.ends)));
     let rim = topology.rim_edges().zip(&sheet.rim_targets).map(|(e, &target)| error(flat_length(e.ends), target));
-    Report {
+    FlatReport {
         energy: outcome.energy,
         iterations: outcome.iterations,
         converged: outcome.converged,
@@ -167,7 +167,7 @@ struct Angles {
 }
 
 impl Angles {
-    fn of(sheet: &Sheet<'_>, flat: &[Vec2]) -> Self {
+    fn of(sheet: &TargetSurface<'_>, flat: &[Vec2]) -> Self {
         let lifted = TriMesh {
             vertices: flat.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect(),
             triangles: sheet.surface.triangles.clone(),
@@ -205,7 +205,7 @@ impl Areas {
         let (strains, stretched, compressed) = (room(), room(), room());
         let mut sums = Self { total: 0.0, flips: 0, stretch: 0.0, change: 0.0, strains, stretched, compressed };
         for (t, &corners) in surface.triangles.iter().enumerate() {
-            let element = Element::new(corners, surface.corners(t));
+            let element = FlatElement::new(corners, surface.corners(t));
             let jacobian = element.jacobian(flat);
             let det = jacobian.determinant();
             let (larger, smaller) = stretches(&jacobian);
@@ -235,7 +235,7 @@ fn exceeded_by(share: f64, strains: &mut [[f64; 2]]) -> f64 {
 /// Signed strain of every triangle: the stretch furthest from one, minus one.
 pub fn triangle_strain(surface: &TriMesh, flat: &[Vec2]) -> Vec<f64> {
     let strain = |(t, &corners): (usize, &[u32; 3])| {
-        let (larger, smaller) = stretches(&Element::new(corners, surface.corners(t)).jacobian(flat));
+        let (larger, smaller) = stretches(&FlatElement::new(corners, surface.corners(t)).jacobian(flat));
         if larger - 1.0 > 1.0 - smaller { larger - 1.0 } else { smaller - 1.0 }
     };
     surface.triangles.iter().enumerate().map(strain).collect()

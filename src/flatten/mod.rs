@@ -44,7 +44,7 @@ pub use cut::{Solid, dart, disk_cuts, shortest_path, slit_from_rim};
 pub use error::FlattenError;
 pub use garment::{FlatGarment, FlatPiece, flatten_garment};
 pub use halve::halving;
-pub use measure::{Report, Threads, triangle_strain};
+pub use measure::{FlatReport, Threads, triangle_strain};
 pub use orient::{one_sided, orient};
 use overlap::Legs;
 pub use overlap::rim_crossings;
@@ -54,12 +54,12 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
 use barrier::Barrier;
-use distortion::Weights;
-use element::Element;
-use energy::Energy;
+use distortion::TermWeights;
+use element::FlatElement;
+use energy::FlatEnergy;
 use law::Law;
-use relax::{Descent, Goal};
-use spring::{Elastic, Spring, Springs};
+use relax::{EnergyDescent, Goal};
+use spring::{Elastic, LengthSpring, Springs};
 use zone::Zone;
 
 /// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This alone brings the rim
@@ -116,7 +116,7 @@ impl Mode {
 
 /// How to flatten.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct FlattenOptions {
     /// The property to keep.
     pub mode: Mode,
     /// Converged when the next step would lower the energy by less than this share of it.
@@ -128,7 +128,7 @@ pub struct Options {
     pub corners: f64,
 }
 
-impl Default for Options {
+impl Default for FlattenOptions {
     fn default() -> Self {
         Self { mode: Mode::default(), tolerance: 1e-5, max_iterations: 1000, corners: 1.0 }
     }
@@ -143,7 +143,7 @@ pub struct Flattened {
     /// ([`dart`]). Empty where no such map was computed.
     pub log_scale: Vec<f64>,
     /// The errors it leaves in the cloth.
-    pub report: Report,
+    pub report: FlatReport,
 }
 
 /// Lays a surface flat, its holes open, its centre at the origin and space's y (up) along −y (up on a screen), as far
@@ -151,14 +151,14 @@ pub struct Flattened {
 ///
 /// Never flips a triangle. A developable surface keeps all its lengths to rounding (a mesh of one as far as the mesh
 /// is developable). A piece that would lie on itself is kept from it, at the price of strain, where that leaves its
-/// rim; elsewhere [`Report::overlaps`] says so. A surface whose triangles run counter-clockwise seen from outside is,
-/// drawn with y down, seen from its inside. A surface with holes keeps every rim; where no flat piece has them all
-/// ([`Report::strain_p99`] says so), as in a tube, it must be cut first ([`disk_cuts`]).
+/// rim; elsewhere [`FlatReport::overlaps`] says so. A surface whose triangles run counter-clockwise seen from outside
+/// is, drawn with y down, seen from its inside. A surface with holes keeps every rim; where no flat piece has them all
+/// ([`FlatReport::strain_p99`] says so), as in a tube, it must be cut first ([`disk_cuts`]).
 ///
 /// # Errors
 /// A closed surface or one with handles, with what it is instead; degenerate triangles; coordinates that are not
 /// finite.
-pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, FlattenError> {
+pub fn flatten(surface: &TriMesh, options: &FlattenOptions) -> Result<Flattened, FlattenError> {
     flatten_surface(surface, None, options)
 }
 
@@ -168,15 +168,19 @@ pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, Flatte
 ///
 /// # Errors
 /// As [`flatten`].
-pub fn flatten_between(surface: &TriMesh, breaks: &[u32], options: &Options) -> Result<Flattened, FlattenError> {
+pub fn flatten_between(surface: &TriMesh, breaks: &[u32], options: &FlattenOptions) -> Result<Flattened, FlattenError> {
     flatten_surface(surface, Some(breaks), options)
 }
 
-fn flatten_surface(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options) -> Result<Flattened, FlattenError> {
+fn flatten_surface(
+    surface: &TriMesh,
+    breaks: Option<&[u32]>,
+    options: &FlattenOptions,
+) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
     let (mut start, log_scale) = holes::start(surface, &topology, &rims)?;
     align::upright(&mut start, surface);
-    let mut sheet = Sheet::as_it_is(surface, topology, rims);
+    let mut sheet = TargetSurface::as_it_is(surface, topology, rims);
     sheet.breaks = breaks.map(|breaks| breaks.iter().copied().collect());
     let mut flattened = relax_sheet(&sheet, start.clone(), options, Itself::MayMeet)?;
     if flattened.report.overlaps > 0 && rim_crossings(&start, &sheet.rims) == 0 {
@@ -195,11 +199,11 @@ fn flatten_surface(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options)
 ///
 /// # Errors
 /// As [`flatten`]; a start of the wrong length or with flipped triangles.
-pub fn flatten_from(surface: &TriMesh, start: &[Vec2], options: &Options) -> Result<Flattened, FlattenError> {
+pub fn flatten_from(surface: &TriMesh, start: &[Vec2], options: &FlattenOptions) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
     check_start(surface, start)?;
     let mut flattened =
-        relax_sheet(&Sheet::as_it_is(surface, topology, rims), start.to_vec(), options, Itself::MayMeet)?;
+        relax_sheet(&TargetSurface::as_it_is(surface, topology, rims), start.to_vec(), options, Itself::MayMeet)?;
     align::onto(&mut flattened.positions, start);
     Ok(flattened)
 }
@@ -215,11 +219,11 @@ fn check_start(surface: &TriMesh, start: &[Vec2]) -> Result<(), FlattenError> {
 }
 
 /// A surface with the flat shape every part of it should have.
-struct Sheet<'a> {
+struct TargetSurface<'a> {
     surface: &'a TriMesh,
     topology: Topology,
     rims: Vec<Vec<u32>>,
-    elements: Vec<Element>,
+    elements: Vec<FlatElement>,
     /// Wanted lengths of `topology.rim_edges()`, in that order.
     rim_targets: Vec<f64>,
     /// By how much the triangles' angles at a vertex should be wider than in the surface.
@@ -233,11 +237,11 @@ struct Sheet<'a> {
     legs: Legs,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> TargetSurface<'a> {
     /// Every part should keep the shape it has.
     fn as_it_is(surface: &'a TriMesh, topology: Topology, rims: Vec<Vec<u32>>) -> Self {
         let elements =
-            surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
+            surface.triangles.iter().enumerate().map(|(t, &c)| FlatElement::new(c, surface.corners(t))).collect();
         let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
         let (wider, warp, breaks, legs) = (Vec::new(), -Vec2::y(), None, Legs::new());
         Self { surface, topology, rims, elements, rim_targets, wider, warp, breaks, legs }
@@ -249,24 +253,24 @@ impl<'a> Sheet<'a> {
         mode.keeps_rim() && (mode != Mode::Woven || rim * rim >= 2.0 * TAU * self.surface.area())
     }
 
-    fn energy(&self, options: &Options) -> Energy {
+    fn energy(&self, options: &FlattenOptions) -> FlatEnergy {
         let rim_springs = |stiffness: f64| self.rim_springs(stiffness, options.corners);
-        let law = |weights: Weights| Law { weights, warp: None };
+        let law = |weights: TermWeights| Law { weights, warp: None };
         let (springs, law) = match options.mode {
             Mode::Balanced => {
-                (rim_springs(RIM_WEIGHT), law(Weights { dirichlet: 1.0, area: AREA_WEIGHT, strain: 0.0 }))
+                (rim_springs(RIM_WEIGHT), law(TermWeights { dirichlet: 1.0, area: AREA_WEIGHT, strain: 0.0 }))
             }
-            Mode::Isometric => (Springs::default(), law(Weights { dirichlet: WALL, strain: 1.0, area: 0.0 })),
-            Mode::Boundary => (rim_springs(RIM_WEIGHT), law(Weights { dirichlet: 1.0, ..Weights::default() })),
+            Mode::Isometric => (Springs::default(), law(TermWeights { dirichlet: WALL, strain: 1.0, area: 0.0 })),
+            Mode::Boundary => (rim_springs(RIM_WEIGHT), law(TermWeights { dirichlet: 1.0, ..TermWeights::default() })),
             Mode::Woven => {
-                let weights = Weights { dirichlet: WOVEN_WALL, ..Weights::default() };
+                let weights = TermWeights { dirichlet: WOVEN_WALL, ..TermWeights::default() };
                 let rim =
                     if self.holds_rim(Mode::Woven) { rim_springs(WOVEN_RIM * RIM_WEIGHT) } else { Springs::default() };
                 (rim, Law { warp: Some(self.warp), weights })
             }
-            Mode::Spring => (self.edge_springs(), law(Weights { dirichlet: WALL, ..Weights::default() })),
+            Mode::Spring => (self.edge_springs(), law(TermWeights { dirichlet: WALL, ..TermWeights::default() })),
         };
-        Energy::new(self.surface.vertices.len(), self.elements.clone(), springs, law)
+        FlatEnergy::new(self.surface.vertices.len(), self.elements.clone(), springs, law)
     }
 
     /// Wanted sums of the triangles' angles at every vertex.
@@ -282,7 +286,7 @@ impl<'a> Sheet<'a> {
     fn rim_springs(&self, stiffness: f64, corners: f64) -> Springs {
         let angles = self.angles();
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
-        let spring = |ends, target| Spring::between(ends, target, stiffness * size * target);
+        let spring = |ends, target| LengthSpring::between(ends, target, stiffness * size * target);
         let edges = self.topology.rim_edges().map(|e| e.ends);
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
@@ -297,7 +301,7 @@ impl<'a> Sheet<'a> {
                 if a != c && square > (BRACED * (before + after)).powi(2) {
                     let brace = spring(sorted_pair([a, c]), square.sqrt());
                     let weight = BRACE * corners * brace.elastic.weight;
-                    free.push(Spring { elastic: Elastic { weight, ..brace.elastic }, ..brace });
+                    free.push(LengthSpring { elastic: Elastic { weight, ..brace.elastic }, ..brace });
                 }
             }
         }
@@ -315,7 +319,7 @@ impl<'a> Sheet<'a> {
                 None => rim_targets.next().copied(),
             };
             let target = target.unwrap_or_else(|| measure::length(self.surface, e.ends));
-            Spring::between(e.ends, target, area / 3.0)
+            LengthSpring::between(e.ends, target, area / 3.0)
         });
         Springs { free: springs.collect(), ..Springs::default() }
     }
@@ -331,9 +335,9 @@ enum Itself {
 }
 
 fn relax_sheet(
-    sheet: &Sheet<'_>,
+    sheet: &TargetSurface<'_>,
     start: Vec<Vec2>,
-    options: &Options,
+    options: &FlattenOptions,
     itself: Itself,
 ) -> Result<Flattened, FlattenError> {
     let mut positions = start;
@@ -351,13 +355,13 @@ fn relax_sheet(
     if itself == Itself::KeptApart {
         energy.barrier = Barrier::new(&sheet.rims, &positions);
     }
-    let mut descent = Descent::new(&energy)?;
+    let mut descent = EnergyDescent::new(&energy)?;
     if itself == Itself::KeptApart && energy.barrier.is_none() {
         descent = descent.keeping_apart(&sheet.rims);
     }
     let outcome = descent.down(&mut energy, &mut positions, &goal, zone.as_mut())?;
     let slack = energy.slack(&positions);
     let rim_missed = (held && slack > goal.exact).then_some(slack);
-    let report = Report { rim_missed, ..measure::report(sheet, &positions, &outcome) };
+    let report = FlatReport { rim_missed, ..measure::report(sheet, &positions, &outcome) };
     Ok(Flattened { positions, log_scale: Vec::new(), report })
 }

@@ -2,9 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::relax::RIM_EXACT;
 use crate::geometry::{Vec2, distance_to_segment, sorted_pair};
 
+/// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of
+/// it is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by
+/// less than a hundredth of a millimetre otherwise, which nobody can cut.
+pub(super) const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
 /// Cloth lies on itself where it does so by more than this share of its rim. Rims are relaxed until their lengths are
 /// that exact, and places in the plane are no better known: the two sides of a slit coincide in a flat piece, and by
 /// rounding alone they cross in every other vertex.

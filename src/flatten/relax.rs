@@ -5,11 +5,11 @@
 //! steps, and it knows the stiff springs of the rim. A step is never longer than to the first flip (Smith & Schaefer
 //! 2015, section 3.3).
 
-use super::energy::Energy;
+use super::energy::FlatEnergy;
 use super::inverse::Inverse;
-use super::overlap::rim_crossings;
+use super::overlap::{RIM_EXACT, rim_crossings};
 use super::zone::Zone;
-use super::{FlattenError, Mode, Options};
+use super::{FlattenError, FlattenOptions, Mode};
 use crate::geometry::Vec2;
 use crate::linear::{Memory, advance, dot};
 
@@ -33,17 +33,13 @@ const WOVEN_TOLERANCE: f64 = 100.0;
 /// edges of a developable sheet were off by 1.7·10⁻⁶ on the bias, where weave hardly resists.
 const ENERGY_FLOOR: f64 = 1e-17;
 
-/// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of
-/// it is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by
-/// less than a hundredth of a millimetre otherwise, which nobody can cut.
-pub(super) const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
 /// How often the forces that hold the rim are found anew. Each time the errors left are fifty to a hundred times
 /// smaller, where the lengths can be had at all.
 const HOLDS: usize = 12;
 
 /// How a relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Outcome {
+pub(super) struct Relaxed {
     pub(super) energy: f64,
     pub(super) iterations: usize,
     pub(super) converged: bool,
@@ -63,7 +59,7 @@ pub(super) struct Goal {
 
 impl Goal {
     /// `held` says whether there are springs to be held.
-    pub(super) fn of(options: &Options, held: bool) -> Self {
+    pub(super) fn of(options: &FlattenOptions, held: bool) -> Self {
         Self {
             tolerance: if options.mode == Mode::Woven { WOVEN_TOLERANCE } else { 1.0 } * options.tolerance,
             max_iterations: options.max_iterations,
@@ -74,14 +70,14 @@ impl Goal {
 }
 
 /// A way down an energy, prepared for its couplings.
-pub(super) struct Descent {
+pub(super) struct EnergyDescent {
     inverse: Inverse,
     /// Rims that no step may bring to lie on each other.
     apart: Vec<Vec<u32>>,
 }
 
-impl Descent {
-    pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
+impl EnergyDescent {
+    pub(super) fn new(energy: &FlatEnergy) -> Result<Self, FlattenError> {
         Ok(Self { inverse: Inverse::new(energy)?, apart: Vec::new() })
     }
 
@@ -95,11 +91,11 @@ impl Descent {
     /// before every step.
     pub(super) fn down(
         &mut self,
-        energy: &mut Energy,
+        energy: &mut FlatEnergy,
         flat: &mut [Vec2],
         goal: &Goal,
         mut zone: Option<&mut Zone>,
-    ) -> Result<Outcome, FlattenError> {
+    ) -> Result<Relaxed, FlattenError> {
         let mut memory = Memory::<2>::default();
         let mut gradient = vec![Vec2::zeros(); flat.len()];
         let mut value = energy.value(flat);
@@ -124,7 +120,7 @@ impl Descent {
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
             let exact = || goal.holds == 0 || energy.slack(flat) <= goal.exact;
             if settled && (holds == 0 || exact()) {
-                return Ok(Outcome { energy: value, iterations, converged: exact() });
+                return Ok(Relaxed { energy: value, iterations, converged: exact() });
             }
             // Forces are found from lengths, so every time they have changed the lengths must answer first.
             if settled && !std::mem::replace(&mut held, true) {
@@ -140,7 +136,7 @@ impl Descent {
             let Some((step, lower)) = self.step(energy, flat, &direction, slope, value) else {
                 if fresh {
                     // The factor is that of this very place: rounding hides what is left to win.
-                    return Ok(Outcome { energy: value, iterations, converged: settled && exact() });
+                    return Ok(Relaxed { energy: value, iterations, converged: settled && exact() });
                 }
                 stale = true;
                 continue;
@@ -153,11 +149,11 @@ impl Descent {
             let change = gradient.iter().zip(&before).map(|(after, before)| after - before).collect();
             memory.remember(direction.iter().map(|d| d * step).collect(), change);
         }
-        Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
+        Ok(Relaxed { energy: value, iterations: goal.max_iterations, converged: false })
     }
 
     /// Takes the curvature anew.
-    fn renew(&mut self, energy: &mut Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
+    fn renew(&mut self, energy: &mut FlatEnergy, flat: &[Vec2]) -> Result<(), FlattenError> {
         if energy.note_pushes(flat) {
             self.inverse = Inverse::new(energy)?;
         }
@@ -165,7 +161,14 @@ impl Descent {
     }
 
     /// How far to go along a direction, and the energy there.
-    fn step(&self, energy: &Energy, flat: &[Vec2], direction: &[Vec2], slope: f64, value: f64) -> Option<(f64, f64)> {
+    fn step(
+        &self,
+        energy: &FlatEnergy,
+        flat: &[Vec2],
+        direction: &[Vec2],
+        slope: f64,
+        value: f64,
+    ) -> Option<(f64, f64)> {
         let (step, lower) = search(energy, flat, direction, slope, value, &self.apart)?;
         Some(match is_newton(energy) {
             true => lengthened(energy, flat, direction, slope, [step, value, lower], &self.apart),
@@ -176,12 +179,12 @@ impl Descent {
 
 /// Whether every step has a factor of its own. Threads that turn bend the way of a weave, so that what earlier steps
 /// tell leads astray. So a weave needs a fifth as many steps, and a third of the time.
-fn is_newton(energy: &Energy) -> bool {
+fn is_newton(energy: &FlatEnergy) -> bool {
     energy.law.warp.is_some()
 }
 
 /// Goes along `direction` as far as the energy falls and nothing flips, if only so far as not at all.
-pub(super) fn go(energy: &Energy, flat: &mut [Vec2], direction: &[Vec2]) {
+pub(super) fn go(energy: &FlatEnergy, flat: &mut [Vec2], direction: &[Vec2]) {
     if let Some((step, _)) = search(energy, flat, direction, 0.0, energy.value(flat), &[]) {
         advance(flat, direction, step);
     }
@@ -190,7 +193,7 @@ pub(super) fn go(energy: &Energy, flat: &mut [Vec2], direction: &[Vec2]) {
 /// Backtracks from the full step, or from just before the first flip, to a lower energy with the rims `apart`; the step
 /// and that energy.
 fn search(
-    energy: &Energy,
+    energy: &FlatEnergy,
     flat: &[Vec2],
     direction: &[Vec2],
     slope: f64,
@@ -214,7 +217,7 @@ fn search(
 /// A step to a lower energy, doubled as long as the energy falls further; the step and that energy. Of a step, the
 /// energy before it and after it.
 fn lengthened(
-    energy: &Energy,
+    energy: &FlatEnergy,
     flat: &[Vec2],
     direction: &[Vec2],
     slope: f64,
@@ -239,7 +242,7 @@ fn lengthened(
 }
 
 /// The smallest positive step at which some triangle loses its area.
-fn first_flip(energy: &Energy, flat: &[Vec2], direction: &[Vec2]) -> f64 {
+fn first_flip(energy: &FlatEnergy, flat: &[Vec2], direction: &[Vec2]) -> f64 {
     let corner = |field: &[Vec2], corners: [u32; 3]| corners.map(|v| field[v as usize]);
     let mut first = f64::INFINITY;
     for e in &energy.elements {

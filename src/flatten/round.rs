@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::SymmetricEigen;
 
-use super::line::{Spot, Web, plane_section};
+use super::line::{SurfacePoint, Web, plane_section};
 use crate::geometry::{Mat3, TriMesh, Vec3, rim_loops};
 
 /// Moments of inertia that differ by less than this share are alike: a ball has no axis of its own.
@@ -18,7 +18,7 @@ pub struct Round {
     /// Its direction, a unit vector that points to the pole.
     axis: Vec3,
     /// Where the axis meets the surface: the pole and, of a closed surface, the opposite one.
-    pub poles: Vec<Spot>,
+    pub poles: Vec<SurfacePoint>,
     /// Smallest distance of the rim from the axis, as a share of its largest: 1 for a circle. Of a closed surface 1.
     pub evenness: f64,
     /// The point of the rim from which gores are counted; none on a closed surface.
@@ -80,7 +80,14 @@ impl Round {
 
     /// The line of constant direction number `k` of `count` even ones, from the vertex at the pole to the rim, or to
     /// the vertex at the opposite pole. `None` where it ends elsewhere.
-    pub fn meridian(&self, surface: &TriMesh, web: &Web, poles: &[u32], k: usize, count: usize) -> Option<Vec<Spot>> {
+    pub fn meridian(
+        &self,
+        surface: &TriMesh,
+        web: &Web,
+        poles: &[u32],
+        k: usize,
+        count: usize,
+    ) -> Option<Vec<SurfacePoint>> {
         let from = *poles.first()?;
         let outward = self.first.map_or_else(|| any_across(self.axis), |p| p - self.centre);
         let outward = (outward - self.axis * self.axis.dot(&outward)).normalize();
@@ -114,7 +121,7 @@ fn first_of(surface: &TriMesh, rim: &[u32], far: impl Fn(&u32) -> f64, smallest:
 }
 
 /// Where a line meets the surface: how far along it, and the spot.
-fn met(surface: &TriMesh, web: &Web, through: Vec3, direction: Vec3) -> Vec<(f64, Spot)> {
+fn met(surface: &TriMesh, web: &Web, through: Vec3, direction: Vec3) -> Vec<(f64, SurfacePoint)> {
     let mut met = Vec::new();
     for t in 0..surface.triangles.len() {
         let [a, b, c] = surface.corners(t).map(|p| p - through);

@@ -47,7 +47,7 @@ impl Elastic {
 
 /// A spring that wants a line to have a length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spring {
+pub(super) struct LengthSpring {
     /// The vertices that the line depends on.
     pub(super) nodes: [u32; 3],
     /// The line is the sum of the nodes' positions times these, which sum to zero.
@@ -69,14 +69,14 @@ pub(super) struct Chain {
 #[derive(Default)]
 pub(super) struct Springs {
     /// Those that get exactly their lengths.
-    pub(super) held: Vec<Spring>,
+    pub(super) held: Vec<LengthSpring>,
     /// Those that do not.
-    pub(super) free: Vec<Spring>,
+    pub(super) free: Vec<LengthSpring>,
     /// Those of the latter whose lengths together are exact.
     pub(super) chains: Vec<Chain>,
 }
 
-impl Spring {
+impl LengthSpring {
     /// Between two vertices.
     pub(super) fn between([a, b]: [u32; 2], target: f64, weight: f64) -> Self {
         let elastic = Elastic { target, weight, pull: 0.0 };

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::FlattenError;
-use super::harmonic::{Laplacian, Weights};
+use super::harmonic::{GraphWeights, Laplacian};
 use crate::geometry::{Topology, TriMesh, Vec2, Vec3};
 
 /// A first flat position, and the logarithm of the scale at every vertex of the conformal map that keeps the rim's
@@ -61,7 +61,7 @@ pub(super) fn first_flipped(triangles: &[[u32; 3]], flat: &[Vec2]) -> Option<usi
 /// Boundary-first flattening with free angles and fixed rim lengths (Sawhney & Crane 2017, sections 4.1, 4.3 and 6):
 /// scale factor 0 along the rim, hence lengths exact up to closing the curve.
 fn boundary_first(surface: &TriMesh, topology: &Topology, rim: &[u32], on_rim: &[bool]) -> Result<Start, FlattenError> {
-    let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Cotangent)?;
+    let laplacian = Laplacian::new(surface, topology, on_rim, GraphWeights::Cotangent)?;
     let angles = angle_sums(surface);
     let scale = yamabe(&laplacian, &angles);
     // Cherrier: the rim's curvature changes by the normal derivative of u.
@@ -95,7 +95,7 @@ fn onto_circle(
     rim: &[u32],
     on_rim: &[bool],
 ) -> Result<Vec<Vec2>, FlattenError> {
-    let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Uniform)?;
+    let laplacian = Laplacian::new(surface, topology, on_rim, GraphWeights::Uniform)?;
     let lengths = rim_lengths(surface, rim);
     let total: f64 = lengths.iter().sum();
     let radius = (surface.area() / PI).sqrt();

@@ -9,7 +9,7 @@
 
 use nalgebra::Matrix2;
 
-use super::element::Mode;
+use super::element::CurvatureMode;
 use crate::geometry::Vec2;
 
 /// Tangent of the shear at which threads that cross begin to jam: half a degree short of the 30° beyond which cloth
@@ -82,7 +82,7 @@ impl Woven {
     /// it is
     /// 2 u₁² + 2 u₂² + Ψ_φφ w² + 4 c (u₁ + u₂) w + Ψ_α (v₁² − u₁²) + Ψ_β (v₂² − u₂²) + 2 Ψ_φ (u₁ v₁ − u₂ v₂)
     /// with w = v₂ − v₁. Both squares of lengths are completed; the eigenmodes of what is left of v are the others.
-    fn modes(&self) -> [Mode; 4] {
+    fn modes(&self) -> [CurvatureMode; 4] {
         let [by_a, by_b, by_angle] = self.slopes();
         let c = 2.0 * self.tangent;
         let stiff = [by_a, by_b].map(|by| (2.0 - by).max(LEAST));
@@ -92,7 +92,8 @@ impl Woven {
             - mixed[0] * mixed[0].transpose() / stiff[0]
             - mixed[1] * mixed[1].transpose() / stiff[1];
         let turned = |share: Vec2| self.turned[0] * share.x + self.turned[1] * share.y;
-        let along = |k: usize| Mode { curvature: stiff[k], mode: self.longer[k] + turned(mixed[k] / stiff[k]) };
+        let along =
+            |k: usize| CurvatureMode { curvature: stiff[k], mode: self.longer[k] + turned(mixed[k] / stiff[k]) };
         let (mean, half, radius) = {
             let half = (left.m11 - left.m22) / 2.0;
             ((left.m11 + left.m22) / 2.0, half, half.hypot(left.m12))
@@ -101,8 +102,8 @@ impl Woven {
         [
             along(0),
             along(1),
-            Mode { curvature: mean + radius, mode: turned(Vec2::new(cosine, sine)) },
-            Mode { curvature: mean - radius, mode: turned(Vec2::new(-sine, cosine)) },
+            CurvatureMode { curvature: mean + radius, mode: turned(Vec2::new(cosine, sine)) },
+            CurvatureMode { curvature: mean - radius, mode: turned(Vec2::new(-sine, cosine)) },
         ]
     }
 }
@@ -131,7 +132,7 @@ pub(super) fn stress(jacobian: &Matrix2<f64>, warp: Vec2) -> Matrix2<f64> {
 
 /// The second derivative of Ψ at J (det J > 0), as a sum of four squares, of which only those of turning threads may be
 /// negative.
-pub(super) fn modes(jacobian: &Matrix2<f64>, warp: Vec2) -> [Mode; 4] {
+pub(super) fn modes(jacobian: &Matrix2<f64>, warp: Vec2) -> [CurvatureMode; 4] {
     Woven::new(jacobian, warp).modes()
 }
 

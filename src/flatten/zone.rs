@@ -4,10 +4,10 @@
 //! turns are short in space and long in steps, and would take the whole piece as many; so they are left to a narrow
 //! zone along the rim, whose inner side stays where it is meanwhile (a nonlinear Schwarz method: Cai & Keyes 2002).
 
-use super::element::Element;
-use super::energy::Energy;
-use super::relax::{Descent, Goal};
-use super::spring::{Spring, Springs};
+use super::element::FlatElement;
+use super::energy::FlatEnergy;
+use super::relax::{EnergyDescent, Goal};
+use super::spring::{LengthSpring, Springs};
 use crate::geometry::Vec2;
 
 /// How many edges the zone is wide.
@@ -21,14 +21,14 @@ const GOAL: Goal = Goal { tolerance: 1e-4, max_iterations: 30, holds: 0, exact: 
 pub(super) struct Zone {
     /// The piece's vertex of every vertex: those that move, then those that stay.
     vertices: Vec<u32>,
-    energy: Energy,
-    descent: Descent,
+    energy: FlatEnergy,
+    descent: EnergyDescent,
     flat: Vec<Vec2>,
 }
 
 impl Zone {
     /// The zone along the held springs; `None` where there is none, or it would be most of the piece.
-    pub(super) fn new(energy: &Energy, flat: &[Vec2]) -> Option<Self> {
+    pub(super) fn new(energy: &FlatEnergy, flat: &[Vec2]) -> Option<Self> {
         let ring = rings(energy, flat.len());
         let all = 0..flat.len() as u32;
         let mut vertices: Vec<u32> = all.clone().filter(|&v| ring[v as usize] < RINGS).collect();
@@ -39,10 +39,10 @@ impl Zone {
         }
         let mut local = vec![u32::MAX; flat.len()];
         vertices.iter().enumerate().for_each(|(k, &v)| local[v as usize] = k as u32);
-        let inside = |e: &&Element| e.corners.iter().any(|&v| ring[v as usize] < RINGS);
-        let element = |e: &Element| Element { corners: e.corners.map(|v| local[v as usize]), ..*e };
+        let inside = |e: &&FlatElement| e.corners.iter().any(|&v| ring[v as usize] < RINGS);
+        let element = |e: &FlatElement| FlatElement { corners: e.corners.map(|v| local[v as usize]), ..*e };
         let elements = energy.elements.iter().filter(inside).map(element).collect();
-        let spring = |s: &Spring| Spring { nodes: s.nodes.map(|v| local[v as usize]), ..*s };
+        let spring = |s: &LengthSpring| LengthSpring { nodes: s.nodes.map(|v| local[v as usize]), ..*s };
         let (held, others) = energy.springs.split_at(energy.held().len());
         let springs = Springs {
             held: held.iter().map(spring).collect(),
@@ -51,7 +51,7 @@ impl Zone {
         };
         let energy = energy.part(vertices.len(), free, elements, springs);
         let flat: Vec<Vec2> = vertices.iter().map(|&v| flat[v as usize]).collect();
-        let descent = Descent::new(&energy).ok()?;
+        let descent = EnergyDescent::new(&energy).ok()?;
         Some(Self { vertices, energy, descent, flat })
     }
 
@@ -74,7 +74,7 @@ impl Zone {
 }
 
 /// How many edges every vertex is from a held spring, counted to [`RINGS`]; more beyond.
-fn rings(energy: &Energy, vertices: usize) -> Vec<u8> {
+fn rings(energy: &FlatEnergy, vertices: usize) -> Vec<u8> {
     let mut ring = vec![u8::MAX; vertices];
     energy.held().iter().flat_map(|s| s.nodes).for_each(|v| ring[v as usize] = 0);
     for here in 0..RINGS {

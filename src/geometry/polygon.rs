@@ -6,7 +6,7 @@ use super::{Vec2, Vec3, sorted_pair};
 
 /// A polygon of a surface, its corners among the `vertices`, as triangles that turn as it does: round its first corner
 /// where it bulges outward in every corner, otherwise one ear after the other (Meisters 1975), seen along its mean
-/// normal. What is too crumpled to have an ear is finished round a corner. A polygon of n corners gives n − 2
+/// normal. A rest that is too crumpled to have an ear is filled round a corner. A polygon of n corners gives n − 2
 /// triangles.
 pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> {
     let at = if corners.len() > 3 { flattened(vertices, corners) } else { None };

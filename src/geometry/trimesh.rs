@@ -15,7 +15,7 @@ pub struct TriMesh {
 
 /// An undirected mesh edge with the triangles beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edge {
+pub struct MeshEdge {
     /// End vertices, the smaller index first.
     pub ends: [u32; 2],
     /// The triangles beside it. The second is `None` on a rim.
@@ -31,7 +31,7 @@ pub(crate) fn sorted_pair([a, b]: [u32; 2]) -> [u32; 2] {
 #[derive(Clone, Debug, Default)]
 pub struct Topology {
     /// Every edge once, sorted by its ends.
-    pub edges: Vec<Edge>,
+    pub edges: Vec<MeshEdge>,
     /// Edges that more than two triangles share (a manifold mesh has none).
     pub non_manifold: Vec<[u32; 2]>,
     /// Neighbouring pairs of triangles that run the same way along their shared edge (an oriented mesh has none).
@@ -44,8 +44,8 @@ impl Topology {
         let sides = sides(triangles);
         let mut out = Self { edges: Vec::with_capacity(sides.len() / 2), ..Self::default() };
         for group in sides.chunk_by(|x, y| x.ends == y.ends) {
-            let triangle = |k: usize| group.get(k).map(|s: &Side| s.index / 3);
-            out.edges.push(Edge { ends: group[0].ends, triangles: [triangle(0), triangle(1)] });
+            let triangle = |k: usize| group.get(k).map(|s: &TriangleSide| s.index / 3);
+            out.edges.push(MeshEdge { ends: group[0].ends, triangles: [triangle(0), triangle(1)] });
             if group.len() > 2 {
                 out.non_manifold.push(group[0].ends);
             } else if group.len() == 2 && group[0].rising == group[1].rising {
@@ -56,14 +56,14 @@ impl Topology {
     }
 
     /// Edges with one triangle.
-    pub fn rim_edges(&self) -> impl Iterator<Item = &Edge> {
+    pub fn rim_edges(&self) -> impl Iterator<Item = &MeshEdge> {
         self.edges.iter().filter(|e| e.triangles[1].is_none())
     }
 }
 
 /// A triangle's side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
+struct TriangleSide {
     /// Its ends, the smaller first.
     ends: [u32; 2],
     /// Three times the triangle, plus the place of its first corner in it.
@@ -74,12 +74,12 @@ struct Side {
 
 /// The sides of all triangles, sorted: by buckets of their smaller end first, then within each bucket. Vertices are
 /// mostly numbered without large gaps, so buckets are small.
-fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+fn sides(triangles: &[[u32; 3]]) -> Vec<TriangleSide> {
     let all = || {
         triangles.iter().enumerate().flat_map(|(t, tri)| {
             (0..3).map(move |k| {
                 let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                Side { ends: sorted_pair([a, b]), index: (3 * t + k) as u32, rising: a < b }
+                TriangleSide { ends: sorted_pair([a, b]), index: (3 * t + k) as u32, rising: a < b }
             })
         })
     };
@@ -88,14 +88,14 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     while largest >> shift > 3 * triangles.len() {
         shift += 1;
     }
-    let drawer = |side: &Side| (side.ends[0] >> shift) as usize;
+    let drawer = |side: &TriangleSide| (side.ends[0] >> shift) as usize;
     let mut starts = vec![0u32; (largest >> shift) + 2];
     all().for_each(|side| starts[drawer(&side) + 1] += 1);
     for k in 1..starts.len() {
         starts[k] += starts[k - 1];
     }
     let mut at = starts.clone();
-    let mut sorted = vec![Side::default(); 3 * triangles.len()];
+    let mut sorted = vec![TriangleSide::default(); 3 * triangles.len()];
     for side in all() {
         let place = &mut at[drawer(&side)];
         sorted[*place as usize] = side;

@@ -1,10 +1,13 @@
-//! Input from users, within limits: bytes of a file, length of a text in a message, and units of length.
+//! Input from users, within limits: bytes of a file, length of a text in a message, names, paths, and units of
+//! length.
 
 mod nearest;
+mod path;
 mod unit;
 mod yaml;
 
-pub use nearest::nearest;
+pub use nearest::{did_you_mean, nearest};
+pub use path::{check_known, is_file_name, stem, whole};
 pub use unit::LengthUnit;
 pub use yaml::{quoted, texts, yaml};
 

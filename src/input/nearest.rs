@@ -40,6 +40,11 @@ pub fn nearest<'a>(written: &str, names: impl IntoIterator<Item = &'a str>) -> O
         .map(|(_, n)| n)
 }
 
+/// The end of a message about an unknown name: the one that may be meant, or nothing.
+pub fn did_you_mean(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -50,7 +50,7 @@ pub fn quoted(text: &str) -> String {
 
 /// At least as many brackets as are open at one place of a text.
 fn depth(text: &str) -> usize {
-    let mut readings = Readings { values: Some(0), ..Readings::default() };
+    let mut readings = Brackets { values: Some(0), ..Brackets::default() };
     let mut before = '\n';
     let mut most = 0;
     for c in text.chars() {
@@ -65,14 +65,14 @@ fn depth(text: &str) -> usize {
 /// Brackets in the last two mean nothing, closing ones least of all: they would hide how deep the values are. Whether a
 /// mark begins a comment or a quoted text cannot always be told without parsing, and then both is followed.
 #[derive(Default)]
-struct Readings {
+struct Brackets {
     values: Option<usize>,
     comment: Option<usize>,
     /// In single and in double quotation marks.
     quoted: [Option<usize>; 2],
 }
 
-impl Readings {
+impl Brackets {
     fn go_on(&mut self, before: char, c: char) {
         // Behind a letter or a digit an apostrophe or a hash is one more letter of a word.
         let begins = !before.is_alphanumeric();

@@ -1,15 +1,15 @@
 //! A body of one's own: a closed OBJ becomes a [`Mannequin`]; and mannequins as OBJ text.
 
 use std::collections::HashMap;
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
-use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
+use super::obj_text::{DECIMALS, ObjText};
+use crate::geometry::{DisjointSets, MM, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
-    BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, Measures, PartKind, Place, check_body,
-    find_parts, load_measured, make_room,
+    BodyCheck, BodyFault, BodyFrame, FilePlace, GAP, HEIGHTS, Mannequin, MannequinError, Measures, PartKind,
+    check_body, find_parts, load_measured, make_room,
 };
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
@@ -61,7 +61,7 @@ pub enum BodyError {
         /// Triangles of the surface.
         triangles: usize,
         /// Where the first two cross.
-        place: Place,
+        place: FilePlace,
     },
     /// A body that nobody dresses: its unit is not what it was taken for.
     #[error(
@@ -131,7 +131,7 @@ pub fn load_body_of(name_or_path: &str, unit: Option<LengthUnit>, measures: &Mea
 
 /// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the
 /// notes tell), y up or z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that
-/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. Limbs
+/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`BodyFrame`] leads back. Limbs
 /// that leave less than [`GAP`] between them are moved apart, which the notes tell. A surface in which no torso, neck,
 /// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
@@ -169,7 +169,7 @@ pub fn floor_of(name_or_path: &str, unit: Option<LengthUnit>) -> Result<f64, Bod
 /// in many places.
 pub fn read_solid(path: &Path, unit: LengthUnit) -> Result<TriMesh, BodyError> {
     let surface = read_obj(path)?;
-    let origin = Origin { file: &path.display().to_string(), unit, turned: false };
+    let origin = SurfaceOrigin { file: &path.display().to_string(), unit, turned: false };
     checked(surface.vertices, surface.triangles, &origin, &mut Vec::new())
 }
 
@@ -191,18 +191,18 @@ pub fn body(surface: ObjSurface, name: String, file: String, unit: Option<Length
 }
 
 /// Where a surface comes from: what leads from metres, y up, back to its file.
-struct Origin<'a> {
+struct SurfaceOrigin<'a> {
     file: &'a str,
     unit: LengthUnit,
     /// Whether it was turned from z up to y up.
     turned: bool,
 }
 
-impl Origin<'_> {
+impl SurfaceOrigin<'_> {
     /// A point (metres) as the file has it.
-    fn place(&self, p: Vec3) -> Place {
+    fn place(&self, p: Vec3) -> FilePlace {
         let p = if self.turned { Vec3::new(p.x, -p.z, p.y) } else { p };
-        Place { at: p / self.unit.metres(), unit: self.unit }
+        FilePlace { at: p / self.unit.metres(), unit: self.unit }
     }
 }
 
@@ -222,18 +222,18 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
         notes.push(assumed(taken, &format!("the body is {height:.2} units high")));
     }
     // Places of faults are those of the file.
-    let origin = Origin { file, unit: taken, turned };
+    let origin = SurfaceOrigin { file, unit: taken, turned };
     let mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
-    let across = stood(&mesh, name, Frame::across_arms(&mesh));
+    let across = stood(&mesh, name, BodyFrame::across_arms(&mesh));
     // Arms held out to the front are what it is widest along.
-    let mut mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
+    let mut mannequin = across.or_else(|_| stood(&mesh, name, BodyFrame::along_z(&mesh))).map_err(|why| shape(&why))?;
     notes.extend(stands(&mannequin.frame));
     notes.extend(gave_way(&make_room(&mut mannequin)));
     Ok(Body { mannequin, notes })
 }
 
 /// A surface as it stands in `frame`, with its parts.
-fn stood(mesh: &TriMesh, name: &str, frame: Frame) -> Result<Mannequin, String> {
+fn stood(mesh: &TriMesh, name: &str, frame: BodyFrame) -> Result<Mannequin, String> {
     let mut mesh = mesh.clone();
     mesh.vertices.iter_mut().for_each(|p| *p = frame.from_file(*p));
     Ok(Mannequin { name: name.to_owned(), parts: find_parts(&mesh)?, mesh, frame })
@@ -256,7 +256,7 @@ fn assumed(unit: LengthUnit, since: &str) -> String {
 }
 
 /// The note on a body that does not stand on y = 0 and face +z.
-fn stands(frame: &Frame) -> Vec<String> {
+fn stands(frame: &BodyFrame) -> Vec<String> {
     let mut notes = Vec::new();
     if frame.low.abs() > OFF {
         let low = 1e3 * frame.low;
@@ -299,9 +299,9 @@ fn object(
     if unit.is_none() {
         notes.push(assumed(taken, &format!("the object is {longest:.2} units long")));
     }
-    let origin = Origin { file, unit: taken, turned: false };
+    let origin = SurfaceOrigin { file, unit: taken, turned: false };
     let mesh = checked(surface.vertices, surface.triangles, &origin, &mut notes)?;
-    Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new(), frame: Frame::default() }, notes })
+    Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new(), frame: BodyFrame::default() }, notes })
 }
 
 /// The closed surface (metres) that cloth can touch, with what its user should know of it; `vertices` are in the file's
@@ -309,7 +309,7 @@ fn object(
 fn checked(
     mut vertices: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
-    origin: &Origin,
+    origin: &SurfaceOrigin,
     notes: &mut Vec<String>,
 ) -> Result<TriMesh, BodyError> {
     let scale = origin.unit.metres();
@@ -323,7 +323,7 @@ fn checked(
 }
 
 /// Refuses a surface that runs through itself in more than a few places: there is no telling its inside.
-fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, origin: &Origin) -> Result<(), BodyError> {
+fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, origin: &SurfaceOrigin) -> Result<(), BodyError> {
     let triangles = mesh.triangles.len();
     match check.crossings {
         Some((pairs, place)) if pairs as f64 > CROSSING * triangles as f64 => {
@@ -334,7 +334,7 @@ fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, origin: &Origin) -> Resul
 }
 
 /// The notes of a body's check.
-fn findings(check: &BodyCheck, origin: &Origin) -> Vec<String> {
+fn findings(check: &BodyCheck, origin: &SurfaceOrigin) -> Vec<String> {
     let mut notes = Vec::new();
     if check.parts > 1 {
         notes.push(format!("the body consists of {} parts that do not touch; all are kept", check.parts));
@@ -426,12 +426,10 @@ fn coinciding(vertices: &[Vec3]) -> DisjointSets {
 
 /// A mannequin as OBJ text: millimetres, y up, feet at y = 0.
 pub fn mannequin_obj(mannequin: &Mannequin) -> String {
-    let mut out = format!("# {}: millimetres, y up, facing +z\no {}\n", mannequin.name, mannequin.name);
-    for p in &mannequin.mesh.vertices {
-        let _ = writeln!(out, "v {:.6} {:.6} {:.6}", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
-    }
-    for t in &mannequin.mesh.triangles {
-        let _ = writeln!(out, "f {} {} {}", t[0] + 1, t[1] + 1, t[2] + 1);
-    }
-    out
+    let mut obj = ObjText::rounded(DECIMALS, 0);
+    obj.comment(format_args!("{}: millimetres, y up, facing +z", mannequin.name));
+    obj.object(&mannequin.name);
+    mannequin.mesh.vertices.iter().for_each(|p| obj.vertex(&(p * MM)));
+    mannequin.mesh.triangles.iter().for_each(|t| obj.face(*t));
+    obj.into_text()
 }

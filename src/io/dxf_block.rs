@@ -1,10 +1,10 @@
 //! The contents of a block of a DXF file, by layer.
 
 use super::dxf_curves::{ellipse, spline};
-use super::dxf_left_out::LeftOut;
+use super::dxf_error::DxfError;
+use super::dxf_left_out::LeftOutEntities;
 use super::dxf_library::Placed;
 use super::dxf_notches;
-use super::dxf_read::DxfError;
 use super::dxf_rim::Rim;
 use super::dxf_slits::{closes, without_slits};
 use super::dxf_text::{Entity, after, letters, lines_of};
@@ -16,7 +16,7 @@ use crate::geometry::{Path, Vec2, bulged};
 pub(super) struct Block<'a> {
     pub(super) name: &'a str,
     pub(super) lines: Vec<(u32, Path)>,
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<LayerPoint>,
     /// Where slits ran into its lines or out of them.
     pub(super) slits: Vec<Vec2>,
     pub(super) texts: Vec<Text>,
@@ -27,7 +27,7 @@ const OUTLINES: [u32; 3] = [layer::BOUNDARY, layer::CUTOUT, layer::SEW];
 
 /// A place on a layer.
 #[derive(Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct LayerPoint {
     pub(super) on: u32,
     pub(super) at: Vec2,
     /// Direction and depth of the slit that begins there, if it is a notch's.
@@ -106,7 +106,7 @@ impl<'a> Block<'a> {
         entity: &Entity<'a>,
         rest: &mut impl Iterator<Item = &'e Entity<'a>>,
         unit: f64,
-        left_out: &mut LeftOut<'a>,
+        left_out: &mut LeftOutEntities<'a>,
     ) -> Result<(), DxfError>
     where
         'a: 'e,
@@ -135,11 +135,11 @@ impl<'a> Block<'a> {
             "POINT" => {
                 let into = entity.slit(unit);
                 let at = entity.points(10, unit)?.first().copied();
-                self.points.extend(on.zip(at).map(|(on, at)| Point { on, at, into }));
+                self.points.extend(on.zip(at).map(|(on, at)| LayerPoint { on, at, into }));
             }
             "CIRCLE" => {
                 let at = entity.as_seen(entity.vertices(10, unit)?);
-                let point = |(on, at): (u32, &(Vec2, f64))| Point { on, at: at.0, into: Vec2::zeros() };
+                let point = |(on, at): (u32, &(Vec2, f64))| LayerPoint { on, at: at.0, into: Vec2::zeros() };
                 self.points.extend(on.zip(at.first()).map(point));
             }
             "TEXT" | "MTEXT" => {
@@ -189,7 +189,7 @@ impl<'a> Block<'a> {
         self.texts.iter().find_map(|t| after(&t.words, key)).filter(|t| !t.is_empty())
     }
 
-    pub(super) fn points_on(&self, layer: u32) -> impl Iterator<Item = &Point> {
+    pub(super) fn points_on(&self, layer: u32) -> impl Iterator<Item = &LayerPoint> {
         self.points.iter().filter(move |p| p.on == layer)
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::dxf_read::DxfError;
+use super::dxf_error::DxfError;
 use super::dxf_text::Entity;
 use crate::geometry::{Cubic, Path, Vec2};
 
@@ -53,7 +53,7 @@ pub(super) fn spline(entity: &Entity, unit: f64) -> Result<Option<Path>, DxfErro
         let weighted = weights.len() == controls.len() && weights.iter().any(|w| *w != weights[0]);
         let weights = if weighted { weights } else { vec![1.0; controls.len()] };
         let parts = if weighted || degree > 3 { PER_SPAN } else { 1 };
-        return Ok(path(&Curve { degree, knots, controls, weights }.curves(parts)));
+        return Ok(path(&RationalSpline { degree, knots, controls, weights }.curves(parts)));
     }
     let through = entity.points(11, unit)?;
     Ok((through.len() > 1 && through.len() <= MOST.1).then(|| smooth_through(&through)).and_then(|c| path(&c)))
@@ -68,14 +68,14 @@ fn path(curves: &[Cubic]) -> Option<Path> {
 }
 
 /// A rational B-spline.
-struct Curve {
+struct RationalSpline {
     degree: usize,
     knots: Vec<f64>,
     controls: Vec<Vec2>,
     weights: Vec<f64>,
 }
 
-impl Curve {
+impl RationalSpline {
     /// Its spans, each as so many cubics with its points and slopes: a cubic itself is one.
     fn curves(&self, parts: usize) -> Vec<Cubic> {
         let mut curves = Vec::new();

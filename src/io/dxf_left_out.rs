@@ -17,9 +17,9 @@ const CURVES: [&str; 4] = ["SPLINE", "ELLIPSE", "CIRCLE", "HELIX"];
 
 /// Kinds, how many there are of each, and the line of the first; in the order of the file.
 #[derive(Debug, Default)]
-pub(super) struct LeftOut<'a>(Vec<(&'a str, usize, usize)>);
+pub(super) struct LeftOutEntities<'a>(Vec<(&'a str, usize, usize)>);
 
-impl<'a> LeftOut<'a> {
+impl<'a> LeftOutEntities<'a> {
     /// Counts an entity that is not read, if it lies where lines and points of a piece do.
     pub(super) fn add(&mut self, entity: &Entity<'a>) {
         if !entity.layer().is_some_and(|on| DRAWN.contains(&on) || dxf_notches::LAYERS.contains(&on)) {

@@ -3,8 +3,8 @@
 use nalgebra::Matrix2;
 
 use super::dxf_block::Block;
-use super::dxf_left_out::LeftOut;
-use super::dxf_read::{DxfError, SHOWN};
+use super::dxf_error::{DxfError, SHOWN};
+use super::dxf_left_out::LeftOutEntities;
 use super::dxf_text::Entity;
 use crate::geometry::Vec2;
 use crate::input::shown;
@@ -70,12 +70,20 @@ impl<'e, 'a> Library<'e, 'a> {
     }
 
     /// The entities of a block.
-    pub(super) fn block(&self, entities: &'e [Entity<'a>], left_out: &mut LeftOut<'a>) -> Result<Block<'a>, DxfError> {
+    pub(super) fn block(
+        &self,
+        entities: &'e [Entity<'a>],
+        left_out: &mut LeftOutEntities<'a>,
+    ) -> Result<Block<'a>, DxfError> {
         self.block_in(entities, left_out, 0)
     }
 
     /// The entities in no block, without inserted ones.
-    pub(super) fn loose(&self, entities: &'e [Entity<'a>], left_out: &mut LeftOut<'a>) -> Result<Block<'a>, DxfError> {
+    pub(super) fn loose(
+        &self,
+        entities: &'e [Entity<'a>],
+        left_out: &mut LeftOutEntities<'a>,
+    ) -> Result<Block<'a>, DxfError> {
         let mut block = Block::named("");
         let mut within = false;
         let mut rest = entities.iter();
@@ -96,7 +104,7 @@ impl<'e, 'a> Library<'e, 'a> {
     fn block_in(
         &self,
         entities: &'e [Entity<'a>],
-        left_out: &mut LeftOut<'a>,
+        left_out: &mut LeftOutEntities<'a>,
         depth: usize,
     ) -> Result<Block<'a>, DxfError> {
         let mut block = Block::named(entities.first().and_then(|e| e.value(2)).unwrap_or(""));

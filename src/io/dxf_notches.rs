@@ -1,7 +1,7 @@
 //! Notches that a DXF file draws: as slits, with both flanks, as a T, a castle or a U, alone or beside their points.
 
 use super::dxf_write::layer;
-use crate::digitize::{DOUBLE, Notch};
+use crate::digitize::{DOUBLE, ImportedNotch};
 use crate::geometry::{Path, Vec2, box_of};
 
 /// Layers of notches: the slit, T, castle, check and U.
@@ -41,7 +41,7 @@ const ON_LINE: f64 = 4e-4;
 const BEFORE: f64 = 2e-3;
 
 /// The notches, those once that are marked on the cut line and on the sewing line: on the latter.
-pub(super) fn once(notches: Vec<Notch>, cut: &Path, sewn: Option<&Path>) -> Vec<Notch> {
+pub(super) fn once(notches: Vec<ImportedNotch>, cut: &Path, sewn: Option<&Path>) -> Vec<ImportedNotch> {
     let Some(sewn) = sewn else { return notches };
     let is_on = |p: Vec2, line: &Path| line.nearest(p).1 <= ON_LINE;
     let before = |p: Vec2, q: Vec2| {
@@ -55,7 +55,7 @@ pub(super) fn once(notches: Vec<Notch>, cut: &Path, sewn: Option<&Path>) -> Vec<
         .map(|n| n.at)
         .filter(|p| is_on(*p, sewn) && !is_on(*p, cut))
         .collect();
-    let is_again = |n: &Notch| {
+    let is_again = |n: &ImportedNotch| {
         n.told.is_none() && is_on(n.at, cut) && !is_on(n.at, sewn) && inner.iter().any(|q| before(n.at, *q))
     };
     notches.into_iter().filter(|n| !is_again(n)).collect()

@@ -2,19 +2,19 @@
 
 use std::cell::Cell;
 
-use super::dxf_block::{Block, Named, Point, longest_first, whole};
+use super::dxf_block::{Block, LayerPoint, Named, longest_first, whole};
 use super::dxf_notches::{self, once};
-use super::dxf_rim::{ON_RIM, Rim, Saying};
+use super::dxf_rim::{ON_RIM, Rim, Saying, closed_by, closing, is_on};
 use super::dxf_told::{Told, is_on_slit, read_notch, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Drawing, Inner, Material, Notch, ToldNotch, Traced, bridged, chained, follows, gaping, holes};
+use crate::digitize::{
+    Drawing, ImportedNotch, InnerLine, Material, ToldNotch, Traced, bridged, chained, follows, gaping, holes,
+};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Corner, Cut, Side};
+use crate::pattern::{Corner, CutKind, Side};
 
 /// Texts that tell of notches that are read of a block, for each is looked for on every notch.
 const MOST_TOLD: usize = 5_000;
-/// A line ends on the mirror line to this (metres).
-const ON_MIRROR: f64 = 1e-3;
 /// A line on layer 1 no longer than this (metres) that ends on the boundary is a notch.
 const NOTCH: f64 = 0.016;
 
@@ -73,7 +73,7 @@ impl Block<'_> {
         let (more, unused) = slit_runs(boundary, &cut);
         saying.left_out(&unused, drawing);
         let mut notches = self.notches(&cut);
-        notches.extend(self.slits.iter().chain(&more).map(|&at| Notch { at, told: None }));
+        notches.extend(self.slits.iter().chain(&more).map(|&at| ImportedNotch { at, told: None }));
         let rim = Rim::new(sewing_line.as_ref().unwrap_or(&cut));
         let lines = saying.clipped(inside.iter().filter_map(inner).collect(), &rim, drawing);
         let points = saying.on_piece(self.points_on(layer::DRILL).map(|p| p.at).collect(), &rim, drawing);
@@ -132,7 +132,7 @@ impl Block<'_> {
     }
 
     /// The notches of all layers, as points and as lines.
-    fn notches(&self, cut: &Path) -> Vec<Notch> {
+    fn notches(&self, cut: &Path) -> Vec<ImportedNotch> {
         let texts = self.texts.iter().filter_map(|t| Some((read_notch(&t.words)?, t.at?)));
         let mut texts: Vec<(ToldNotch, Vec2)> = texts.take(MOST_TOLD).collect();
         let mut notches = Vec::new();
@@ -141,7 +141,7 @@ impl Block<'_> {
             notches.extend(self.points_on(layer).map(|point| notch(point, &mut texts)));
             let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole).map(|(_, path)| path).collect();
             let drawn = dxf_notches::drawn(&points, &shapes, cut);
-            notches.extend(drawn.into_iter().map(|at| Notch { at, told: None }));
+            notches.extend(drawn.into_iter().map(|at| ImportedNotch { at, told: None }));
         }
         notches
     }
@@ -149,25 +149,14 @@ impl Block<'_> {
 
 /// The notch of a point: where it meets the sewing line, if one of these texts tells that. Each tells of one notch, and
 /// they stand in the order of these.
-fn notch(point: &Point, texts: &mut Vec<(ToldNotch, Vec2)>) -> Notch {
+fn notch(point: &LayerPoint, texts: &mut Vec<(ToldNotch, Vec2)>) -> ImportedNotch {
     match texts.iter().position(|(_, at)| is_on_slit(*at, point.at, point.into)) {
         Some(k) => {
             let (told, at) = texts.remove(k);
-            Notch { at, told: Some(told) }
+            ImportedNotch { at, told: Some(told) }
         }
-        None => Notch { at: point.at, told: None },
+        None => ImportedNotch { at: point.at, told: None },
     }
-}
-
-/// Start and end of a run, if they are apart.
-pub(super) fn closing<T>(run: &[(T, Path)]) -> Option<[Vec2; 2]> {
-    let ends = [run.last()?.1.end(), run.first()?.1.start()];
-    ((ends[0] - ends[1]).norm() > 1e-8).then_some(ends)
-}
-
-/// Whether a point is on the line that the mirror line is a part of.
-pub(super) fn is_on(p: Vec2, [from, to]: [Vec2; 2]) -> bool {
-    (to - from).try_normalize(0.0).is_some_and(|along| along.perp(&(p - from)).abs() <= ON_MIRROR)
 }
 
 /// Of the further runs on the layer of boundaries the notches that they are, and the others.
@@ -185,17 +174,6 @@ fn slit_runs(runs: impl Iterator<Item = Vec<((), Path)>>, cut: &Path) -> (Vec<Ve
     (slits, rest)
 }
 
-/// The run with a straight last side.
-pub(super) fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
-    let (Some(start), Some(end)) = (run.first().map(|r| r.1.start()), run.last().map(|r| r.1.end())) else {
-        return run;
-    };
-    if (start - end).norm() > 1e-8 {
-        run.push((side, Path::line(end, start)));
-    }
-    run
-}
-
 /// How the allowance of an edge ends, where that is told.
 fn corner((.., told): &(u32, &Path, Option<Told>)) -> Option<(String, Corner)> {
     match told {
@@ -205,13 +183,13 @@ fn corner((.., told): &(u32, &Path, Option<Told>)) -> Option<(String, Corner)> {
 }
 
 /// A line inside that is neither an edge nor a pleat's.
-fn inner((on, path, told): &(u32, &Path, Option<Told>)) -> Option<Inner> {
+fn inner((on, path, told): &(u32, &Path, Option<Told>)) -> Option<InnerLine> {
     let (name, kind) = match told {
         None if *on == layer::INTERNAL => (None, None),
         Some(Told::Line(name, kind)) => (Some(name.clone()), Some(kind.clone())),
         _ => return None,
     };
-    Some(Inner { name, path: (*path).clone(), kind })
+    Some(InnerLine { name, path: (*path).clone(), kind })
 }
 
 /// Where pleats begin on the edge; the line of each fold is followed by that of its place.
@@ -222,13 +200,13 @@ fn pleats(told: &[(u32, &Path, Option<Told>)]) -> Vec<[Vec2; 2]> {
 }
 
 /// `1,1` is one as drawn and one mirrored; `2,0` or `2` two as drawn.
-fn quantity(text: &str) -> Option<Cut> {
+fn quantity(text: &str) -> Option<CutKind> {
     let mut counts = text.split([',', ';', '/']).map(|w| w.trim().parse::<usize>());
     let plain = counts.next()?.ok()?;
     let mirrored = counts.next().and_then(Result::ok).unwrap_or(0);
     match (plain, mirrored) {
-        (1, 1) => Some(Cut::Pair),
-        (n @ 2..=100, 0) => Some(Cut::Count(n)),
+        (1, 1) => Some(CutKind::Pair),
+        (n @ 2..=100, 0) => Some(CutKind::Count(n)),
         _ => None,
     }
 }

@@ -9,87 +9,22 @@
 use std::path::Path as FilePath;
 
 use super::dxf_block::Block;
+use super::dxf_error::SHOWN;
 use super::dxf_flat::flat;
-use super::dxf_left_out::LeftOut;
+use super::dxf_left_out::LeftOutEntities;
 use super::dxf_library::Library;
-use super::dxf_sizes::{Sizes, named_apart};
+use super::dxf_sizes::{FileSizes, named_apart};
 use super::dxf_text::{Entity, after, assumed_unit, blocks, entities, letters, stated_unit};
 use super::encoding::decoded;
 use crate::digitize::{Drawing, Traced, besides};
-use crate::input::{InputError, bytes, shown};
+use crate::input::{bytes, shown};
+
+pub use super::dxf_error::DxfError;
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
 /// Letters of a style's name that are read.
 const TITLE: usize = 200;
-/// Letters of a text that messages show.
-pub(super) const SHOWN: usize = 40;
-
-/// Why a DXF file could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum DxfError {
-    /// The system refused.
-    #[error("{0}")]
-    Input(#[from] InputError),
-    /// A binary file, or no DXF at all.
-    #[error("it is not a DXF text file: line {line} should be a group code and is '{found}'")]
-    NotText {
-        /// From 1.
-        line: usize,
-        /// The text that stands there.
-        found: String,
-    },
-    /// A coordinate that is no number.
-    #[error("line {line}: '{found}' is not a coordinate")]
-    Number {
-        /// From 1.
-        line: usize,
-        /// The text that stands there.
-        found: String,
-    },
-    /// Too many lines.
-    #[error("block '{block}' has more than {most} lines; leave out what does not belong to the pattern")]
-    TooMany {
-        /// Its name.
-        block: String,
-        /// The limit.
-        most: usize,
-    },
-    /// A line without its end: what follows it would be lost.
-    #[error("line {line}: the POLYLINE that begins here has no SEQEND after its VERTEXes; export the file again")]
-    Unended {
-        /// From 1.
-        line: usize,
-    },
-    /// A size that it has not.
-    #[error("it has no size '{wanted}'; its sizes are {known}")]
-    NoSize {
-        /// The size that was asked for.
-        wanted: String,
-        /// Those there are.
-        known: String,
-    },
-    /// Blocks within blocks without end.
-    #[error("block '{block}' holds itself, or others more than {most} deep")]
-    TooDeep {
-        /// Its name.
-        block: String,
-        /// The limit.
-        most: usize,
-    },
-    /// No block is a piece.
-    #[error(
-        "neither a block nor the drawing has a closed boundary on layer 1, so this is not a DXF-AAMA (ASTM D6673) \
-         pattern; \
-         layers found: {layers}; export it as AAMA or ASTM, or as SVG{besides}"
-    )]
-    NoPieces {
-        /// Those there are.
-        layers: String,
-        /// The parts that were left out, which may be the reason.
-        besides: String,
-    },
-}
 
 /// Notes on a file besides its own statements.
 #[derive(Clone, Debug, Default)]
@@ -129,7 +64,7 @@ pub fn read_dxf_text_as(text: &str, options: &DxfOptions) -> Result<Drawing, Dxf
     let stated = options.unit.or_else(|| stated_unit(&entities));
     let (unit, notes) = stated.map_or_else(|| assumed_unit(&entities), |unit| (unit, Vec::new()));
     let mut drawing = Drawing { notes, title: title(&entities), ..Drawing::default() };
-    let mut unread = LeftOut::default();
+    let mut unread = LeftOutEntities::default();
     let blocks = blocks(&entities);
     let library = Library::new(&blocks, unit);
     let mut all: Vec<Block> = Vec::new();
@@ -141,7 +76,7 @@ pub fn read_dxf_text_as(text: &str, options: &DxfOptions) -> Result<Drawing, Dxf
     if !all.iter().any(Block::has_boundary) {
         all = flat(library.loose(&entities, &mut unread)?);
     }
-    let sizes = Sizes::new(&all, &entities);
+    let sizes = FileSizes::new(&all, &entities);
     let chosen = sizes.chosen(options.size.as_deref())?;
     drawing.notes.extend(sizes.note(chosen, options.size.is_some()));
     let mut pieces: Vec<Traced> = Vec::new();

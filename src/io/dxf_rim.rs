@@ -2,8 +2,7 @@
 
 use std::cell::Cell;
 
-use super::dxf_piece::{closed_by, closing, is_on};
-use crate::digitize::{Drawing, Inner, bridged, parts_within};
+use crate::digitize::{Drawing, InnerLine, bridged, parts_within};
 use crate::geometry::{MM, Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 
 /// Marks so near to the outline (metres) are on the piece.
@@ -12,6 +11,9 @@ pub(super) const ON_RIM: f64 = 5e-4;
 const COARSE: f64 = 1e-4;
 /// Square centimetres in a square metre.
 const CM2: f64 = 1e4;
+
+/// A line ends on the mirror line to this (metres).
+const ON_MIRROR: f64 = 1e-3;
 
 /// An outline of which is asked what lies in it.
 pub(super) struct Rim {
@@ -112,7 +114,7 @@ impl Saying<'_> {
     }
 
     /// The parts of lines that are on the piece; those that are told lie where toile drew them.
-    pub(super) fn clipped(&self, lines: Vec<Inner>, rim: &Rim, drawing: &mut Drawing) -> Vec<Inner> {
+    pub(super) fn clipped(&self, lines: Vec<InnerLine>, rim: &Rim, drawing: &mut Drawing) -> Vec<InnerLine> {
         let (mut kept, mut shortened, mut gone) = (Vec::new(), 0, 0);
         for line in lines {
             if line.kind.is_some() {
@@ -125,7 +127,7 @@ impl Saying<'_> {
                 [whole] if *whole == line.path => {}
                 _ => shortened += 1,
             }
-            kept.extend(parts.into_iter().map(|path| Inner { path, ..line.clone() }));
+            kept.extend(parts.into_iter().map(|path| InnerLine { path, ..line.clone() }));
         }
         let name = self.name;
         if shortened > 0 {
@@ -153,4 +155,26 @@ impl Saying<'_> {
 
 fn counted(count: usize, one: &str, several: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// Start and end of a run, if they are apart.
+pub(super) fn closing<T>(run: &[(T, Path)]) -> Option<[Vec2; 2]> {
+    let ends = [run.last()?.1.end(), run.first()?.1.start()];
+    ((ends[0] - ends[1]).norm() > 1e-8).then_some(ends)
+}
+
+/// Whether a point is on the line that the mirror line is a part of.
+pub(super) fn is_on(p: Vec2, [from, to]: [Vec2; 2]) -> bool {
+    (to - from).try_normalize(0.0).is_some_and(|along| along.perp(&(p - from)).abs() <= ON_MIRROR)
+}
+
+/// The run with a straight last side.
+pub(super) fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
+    let (Some(start), Some(end)) = (run.first().map(|r| r.1.start()), run.last().map(|r| r.1.end())) else {
+        return run;
+    };
+    if (start - end).norm() > 1e-8 {
+        run.push((side, Path::line(end, start)));
+    }
+    run
 }

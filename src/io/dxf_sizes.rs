@@ -1,7 +1,7 @@
 //! The sizes of a graded file: told by texts, or by the names of blocks alone.
 
 use super::dxf_block::Block;
-use super::dxf_read::{DxfError, SHOWN};
+use super::dxf_error::{DxfError, SHOWN};
 use super::dxf_text::{Entity, after, letters};
 use crate::digitize::{Traced, size_of};
 use crate::input::shown;
@@ -12,14 +12,14 @@ const SAMPLE: [&str; 4] = ["sample size:", "base size:", "sample:", "basesize:"]
 const SURELY_A_SIZE: u32 = 26;
 
 /// The sizes of a file.
-pub(super) struct Sizes {
+pub(super) struct FileSizes {
     names: Vec<String>,
     sample: Option<String>,
     /// Whether they are told by the names of blocks.
     by_names: bool,
 }
 
-impl Sizes {
+impl FileSizes {
     pub(super) fn new(blocks: &[Block], entities: &[Entity]) -> Self {
         let pieces: Vec<&Block> = blocks.iter().filter(|b| b.has_boundary()).collect();
         let told = distinct(pieces.iter().filter_map(|b| b.text("size:")));

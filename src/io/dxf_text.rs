@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::dxf_read::{DxfError, SHOWN};
+use super::dxf_error::{DxfError, SHOWN};
 use crate::geometry::Vec2;
 use crate::input::shown;
 
@@ -18,13 +18,13 @@ const FARTHEST: f64 = 1e3;
 
 /// A value and the line it stands on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<'a> {
+pub(super) struct DxfValue<'a> {
     pub(super) code: i32,
     pub(super) value: &'a str,
     pub(super) line: usize,
 }
 
-impl Pair<'_> {
+impl DxfValue<'_> {
     /// The value times `unit`, of which no more than [`FARTHEST`] is anything of a pattern.
     fn number(&self, unit: f64) -> Result<f64, DxfError> {
         let wrong = || DxfError::Number { line: self.line, found: shown(self.value, SHOWN) };
@@ -39,7 +39,7 @@ pub(super) struct Entity<'a> {
     pub(super) kind: &'a str,
     /// The line its kind stands on.
     pub(super) line: usize,
-    pub(super) pairs: Vec<Pair<'a>>,
+    pub(super) pairs: Vec<DxfValue<'a>>,
 }
 
 impl<'a> Entity<'a> {
@@ -155,7 +155,7 @@ pub(super) fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
         if code == 0 {
             entities.push(Entity { kind: value, line: k + 1, pairs: Vec::new() });
         } else if let Some(entity) = entities.last_mut() {
-            entity.pairs.push(Pair { code, value, line: k + 1 });
+            entity.pairs.push(DxfValue { code, value, line: k + 1 });
         }
     }
     Ok(entities)
@@ -253,8 +253,8 @@ fn plain(text: &str) -> String {
     out
 }
 
-/// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. What is
-/// no code of a letter stays as it is.
+/// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. A text
+/// that is no code of a letter stays as it is.
 pub(super) fn letters(text: &str) -> String {
     let code = |part: &str| part.get(..4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
     let mut out = String::new();

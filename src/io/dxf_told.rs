@@ -1,6 +1,6 @@
-//! What DXF-AAMA has no layer for, told by texts on the lines themselves: names of edges, what inner lines do, how
-//! pleats lie, what notches belong to. Other readers show them as any annotation; people find on the screen what a line
-//! is.
+//! Texts on the lines themselves, for statements that DXF-AAMA has no layer for: names of edges, kinds of inner lines,
+//! directions of pleats, edges of notches. Other readers show them as any annotation, so that people find the
+//! kind of a line on the screen.
 
 use crate::cutting::NotchMark;
 use crate::digitize::ToldNotch;

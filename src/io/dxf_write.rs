@@ -3,8 +3,8 @@
 //! One block per piece, inserted once; layers are numbers (see [`layer`]). The dialect is DXF R12 as text, with neither
 //! tables nor layout blocks, which the trade's readers do not expect. Coordinates are millimetres, y up; units are said
 //! in the style's text, for DXF R12 has no place for them. Curves are polylines; a point on layer 2 or 3 says of each
-//! of their vertices whether the line turns or runs smoothly there. What the standard has no layer for (names of edges,
-//! folds, elastic, darts, pleats, kinds of notches) is told by small texts on the lines.
+//! of their vertices whether the line turns or runs smoothly there. Small texts on the lines tell
+//! names of edges, folds, elastic, darts, pleats and kinds of notches, for which the standard has no layer.
 
 use std::fmt::Write as _;
 

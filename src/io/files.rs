@@ -1,7 +1,7 @@
 //! Writing results: a set of files whole or not at all, never over an input.
 //!
-//! Every file is written beside its target under a temporary name and renamed when all of them are complete. What is
-//! still temporary when the program is interrupted is removed by the handler that [`remove_on_interrupt`] sets up.
+//! Every file is written beside its target under a temporary name and renamed when all of them are complete. When the
+//! program is interrupted, the handler that [`remove_on_interrupt`] sets up removes the files that are still temporary.
 
 use std::fs;
 use std::io::{self, Write};

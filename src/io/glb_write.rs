@@ -56,7 +56,7 @@ pub fn garment_glb(
 ) -> Vec<u8> {
     let welded = Welded::new(mesh, weld, positions);
     let normals = welded.surface.vertex_normals();
-    let mut file = File::default();
+    let mut file = GlbFile::default();
     let mut fabrics: Vec<&str> = Vec::new();
     let mut meshes = Vec::new();
     let sewn = sewn_particles(mesh);
@@ -97,7 +97,7 @@ pub fn garment_glb(
 
 /// A surface without pieces as GLB bytes, such as a body: metres, y up, one mesh called `name`.
 pub fn surface_glb(name: &str, surface: &TriMesh, place: impl Fn(Vec3) -> Vec3) -> Vec<u8> {
-    let mut file = File::default();
+    let mut file = GlbFile::default();
     let places: Vec<[f32; 3]> = surface.vertices.iter().map(|p| single(&place(*p))).collect();
     let corners: Vec<u32> = surface.triangles.iter().flatten().copied().collect();
     let attributes = json!({ "POSITION": file.vectors(&places, true) });
@@ -166,13 +166,13 @@ fn kind(numbers: usize) -> String {
 
 /// The binary part of the file, and what describes it.
 #[derive(Default)]
-struct File {
+struct GlbFile {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-impl File {
+impl GlbFile {
     /// Adds vertex data and gives its accessor; positions must say their bounds.
     fn vectors<const N: usize>(&mut self, vectors: &[[f32; N]], bounds: bool) -> usize {
         let begin = self.bytes.len();

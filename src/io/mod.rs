@@ -3,6 +3,7 @@
 pub mod body;
 mod dxf_block;
 mod dxf_curves;
+mod dxf_error;
 mod dxf_flat;
 mod dxf_left_out;
 mod dxf_library;
@@ -22,8 +23,10 @@ pub mod garmentcode;
 pub mod glb_write;
 pub mod lines_read;
 pub mod obj_read;
+pub mod obj_text;
 pub mod obj_write;
 pub mod pdf_write;
+pub mod result_names;
 pub mod surface_read;
 pub mod svg_read;
 pub mod svg_write;

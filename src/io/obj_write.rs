@@ -1,10 +1,12 @@
 //! `garment.obj` and `sewn.obj`.
 
-use std::fmt::Write;
-
+use super::obj_text::{DECIMALS, ObjCorner, ObjText};
 use crate::geometry::{MM, Vec3};
 use crate::mesh::ClothMesh;
 use crate::verify::Welded;
+
+/// Bytes that a line takes at most, with places within ten metres: room for the text is made at once.
+const BYTES_OF_A_LINE: usize = 48;
 
 /// The garment as OBJ text: millimetres, y up, one group per piece, six decimals (a nanometre).
 ///
@@ -19,30 +21,23 @@ use crate::verify::Welded;
 pub fn garment_obj(name: &str, mesh: &ClothMesh, weld: &[u32], positions: &[Vec3]) -> String {
     let welded = Welded::new(mesh, weld, positions);
     let lines = 2 * welded.surface.vertices.len() + mesh.flat.len() + mesh.triangles.len();
-    let mut out = String::with_capacity(48 * lines);
-    // Writing to a String cannot fail, so the results below carry nothing.
-    let _ =
-        writeln!(out, "# toile {}: {name}; millimetres, y up; vt = flat position (x, -y)", env!("CARGO_PKG_VERSION"));
-    for p in &welded.surface.vertices {
-        let _ = writeln!(out, "v {:.6} {:.6} {:.6}", p.x * MM, p.y * MM, p.z * MM);
-    }
-    for p in &mesh.flat {
-        let _ = writeln!(out, "vt {:.6} {:.6}", p.x * MM, -p.y * MM);
-    }
-    for n in welded.surface.vertex_normals() {
-        let _ = writeln!(out, "vn {:.6} {:.6} {:.6}", n.x, n.y, n.z);
-    }
+    let mut obj = ObjText::rounded(DECIMALS, BYTES_OF_A_LINE * lines);
+    let version = env!("CARGO_PKG_VERSION");
+    obj.comment(format_args!("toile {version}: {name}; millimetres, y up; vt = flat position (x, -y)"));
+    welded.surface.vertices.iter().for_each(|p| obj.vertex(&(p * MM)));
+    mesh.flat.iter().for_each(|p| obj.texture(&(p * MM)));
+    welded.surface.vertex_normals().iter().for_each(|n| obj.normal(n));
     for piece in &mesh.pieces {
-        let _ = writeln!(out, "g {}", piece.name);
+        obj.group(&piece.name);
         for t in piece.triangles.clone() {
-            let [a, b, c] = [0, 1, 2].map(|k| corner(welded.surface.triangles[t][k], welded.corners[t][k]));
-            let _ = writeln!(out, "f {a} {b} {c}");
+            obj.face([0, 1, 2].map(|k| corner(welded.surface.triangles[t][k], welded.corners[t][k])));
         }
     }
-    out
+    obj.into_text()
 }
 
-/// `vertex/texture/normal`, counted from one.
-fn corner(vertex: u32, particle: u32) -> String {
-    format!("{v}/{t}/{v}", v = vertex + 1, t = particle + 1)
+/// A corner of a triangle of the welded surface. Every vertex has its own normal.
+fn corner(vertex: u32, particle: u32) -> ObjCorner {
+    let vertex = vertex as usize;
+    ObjCorner { vertex, texture: Some(particle as usize), normal: Some(vertex) }
 }

@@ -15,59 +15,10 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::fronts::{self, Stopped};
 use super::tree::Tree;
-use super::{SymmetricMatrix, SymmetricPattern};
+use super::{Scalar, SymmetricMatrix, SymmetricPattern};
 
 /// Serial execution, whatever the process-wide setting: results must not depend on the number of threads.
 const SERIAL: Par = Par::Seq;
-
-mod private {
-    /// Keeps faer's number trait out of the public bound.
-    pub trait Field: faer::traits::ComplexField<Real = Self> + faer::traits::RealField {}
-    impl Field for f32 {}
-    impl Field for f64 {}
-}
-
-/// The numbers a matrix may be made of: `f64`, or `f32` where a Newton direction need not be exact (half the memory,
-/// measurably faster).
-pub trait Scalar:
-    private::Field
-    + Copy
-    + Send
-    + Sync
-    + std::fmt::Debug
-    + std::ops::AddAssign
-    + std::ops::SubAssign
-    + std::ops::Add<Output = Self>
-    + std::ops::Mul<Output = Self>
-    + std::ops::Div<Output = Self>
-{
-    /// The nearest value.
-    fn from_f64(value: f64) -> Self;
-    /// The value as `f64`.
-    fn to_f64(self) -> f64;
-}
-
-impl Scalar for f64 {
-    #[inline]
-    fn from_f64(value: f64) -> Self {
-        value
-    }
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self
-    }
-}
-
-impl Scalar for f32 {
-    #[inline]
-    fn from_f64(value: f64) -> Self {
-        value as f32
-    }
-    #[inline]
-    fn to_f64(self) -> f64 {
-        f64::from(self)
-    }
-}
 
 /// Why no factor can be made for a pattern.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -93,13 +44,13 @@ pub struct NotPositiveDefinite {
 #[derive(Debug)]
 pub struct Cholesky<T> {
     pattern: Arc<SymmetricPattern>,
-    kind: Kind,
+    kind: Elimination,
     values: Vec<T>,
 }
 
 /// How a matrix is eliminated.
 #[derive(Debug)]
-enum Kind {
+enum Elimination {
     /// Number by number, in one thread: for small matrices.
     Entries { symbolic: Box<SymbolicCholesky<u32>>, scratch: Scratch },
     /// By dense fronts, in all threads.
@@ -130,12 +81,12 @@ impl<T: Scalar> Cholesky<T> {
             };
             let tree = Tree::new(supernodes, &pattern, &order);
             let len = tree.len;
-            (Kind::Fronts(tree), len)
+            (Elimination::Fronts(tree), len)
         } else {
             let needed = symbolic.factorize_numeric_llt_scratch::<T>(SERIAL, Default::default());
             let scratch = Scratch(MemBuffer::try_new(needed).map_err(|_| too_large)?);
             let len = symbolic.len_val();
-            (Kind::Entries { symbolic: Box::new(symbolic), scratch }, len)
+            (Elimination::Entries { symbolic: Box::new(symbolic), scratch }, len)
         };
         Ok(Self { pattern, kind, values: vec![T::from_f64(0.0); len] })
     }
@@ -156,7 +107,7 @@ impl<T: Scalar> Cholesky<T> {
     pub fn factor(&mut self, matrix: &SymmetricMatrix<T>) -> Result<(), NotPositiveDefinite> {
         assert_eq!(matrix.values().len(), self.pattern.entries(), "a matrix of another pattern");
         match &mut self.kind {
-            Kind::Entries { symbolic, scratch } => {
+            Elimination::Entries { symbolic, scratch } => {
                 let result = symbolic.factorize_numeric_llt(
                     &mut self.values,
                     SparseColMatRef::new(lower_triangle(&self.pattern), matrix.values()),
@@ -172,7 +123,7 @@ impl<T: Scalar> Cholesky<T> {
                 let dof = symbolic.perm().map_or(place, |p| p.arrays().0[place] as usize);
                 Err(NotPositiveDefinite { dof })
             }
-            Kind::Fronts(tree) => {
+            Elimination::Fronts(tree) => {
                 let stopped = |Stopped(place)| NotPositiveDefinite { dof: tree.order[place] as usize };
                 fronts::factor(tree, matrix.values(), &mut self.values).map_err(stopped)
             }
@@ -191,7 +142,7 @@ impl<T: Scalar> Cholesky<T> {
         let columns = rhs.len() / rows;
         assert_eq!(columns * rows, rhs.len(), "right-hand sides must be whole vectors");
         match &self.kind {
-            Kind::Entries { symbolic, .. } => {
+            Elimination::Entries { symbolic, .. } => {
                 let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<T>(columns, SERIAL));
                 LltRef::new(symbolic, &self.values).solve_in_place_with_conj(
                     Conj::No,
@@ -200,7 +151,7 @@ impl<T: Scalar> Cholesky<T> {
                     MemStack::new(&mut memory),
                 );
             }
-            Kind::Fronts(tree) => rhs.chunks_exact_mut(rows).for_each(|x| fronts::solve(tree, &self.values, x)),
+            Elimination::Fronts(tree) => rhs.chunks_exact_mut(rows).for_each(|x| fronts::solve(tree, &self.values, x)),
         }
     }
 

@@ -177,12 +177,12 @@ pub(super) fn solve<T: Scalar>(tree: &Tree, values: &[T], x: &mut [T]) {
     parallel::for_each(&mut placed, parallel::LIGHT, |k, out| *out = x[tree.order[k] as usize]);
     let whole: f64 = tree.roots.iter().map(|&t| tree.fronts[t].work).sum();
     if whole <= SOLVED_ALONE {
-        let mut all = Part { x: &mut placed, below: &mut below };
+        let mut all = FrontNumbers { x: &mut placed, below: &mut below };
         (0..tree.fronts.len()).for_each(|f| all.forward(tree, f, 0, values));
         (0..tree.fronts.len()).rev().for_each(|f| all.backward(tree, f, 0, values));
     } else {
         parallel::pass(|| {
-            let mut all = Part { x: &mut placed, below: &mut below };
+            let mut all = FrontNumbers { x: &mut placed, below: &mut below };
             forward(tree, &mut all.split(tree, &tree.roots), values);
             backward(tree, &mut all.split(tree, &tree.roots), values);
         });
@@ -193,30 +193,30 @@ pub(super) fn solve<T: Scalar>(tree: &Tree, values: &[T], x: &mut [T]) {
 }
 
 /// The numbers of a right-hand side that belong to a row of fronts.
-struct Part<'x, T> {
+struct FrontNumbers<'x, T> {
     /// At their columns.
     x: &'x mut [T],
     /// At the rows below these, front by front.
     below: &'x mut [T],
 }
 
-impl<T: Scalar> Part<'_, T> {
+impl<T: Scalar> FrontNumbers<'_, T> {
     /// The parts of the subtrees of some fronts that follow one another, from the first front of this part on.
-    fn split(&mut self, tree: &Tree, fronts: &[usize]) -> Vec<(usize, Part<'_, T>)> {
+    fn split(&mut self, tree: &Tree, fronts: &[usize]) -> Vec<(usize, FrontNumbers<'_, T>)> {
         let (mut x, mut below) = (&mut *self.x, &mut *self.below);
         let mut out = Vec::with_capacity(fronts.len());
         for &t in fronts {
             let (front, first) = (&tree.fronts[t], &tree.fronts[tree.fronts[t].first]);
             let (own, rest) = x.split_at_mut(front.start + front.columns - first.start);
             let (own_below, rest_below) = below.split_at_mut(front.below + front.relative.len() - first.below);
-            out.push((t, Part { x: own, below: own_below }));
+            out.push((t, FrontNumbers { x: own, below: own_below }));
             (x, below) = (rest, rest_below);
         }
         out
     }
 
-    /// L y = b at the columns of front `f`, in a part that begins with front `first`. What it takes from the rows below
-    /// is added to that of its children.
+    /// L y = b at the columns of front `f`, in a part that begins with front `first`. The sum that it takes from the
+    /// rows below is added to that of its children.
     fn forward(&mut self, tree: &Tree, f: usize, first: usize, values: &[T]) {
         let (front, begin) = (&tree.fronts[f], &tree.fronts[first]);
         let (columns, rows) = (front.columns, front.rows());
@@ -276,8 +276,8 @@ fn hand_on<T: Scalar>(relative: &[u32], x: &[T], below: &[T], of_child: &mut [T]
     }
 }
 
-/// [`Part::forward`] of whole subtrees.
-fn forward<T: Scalar>(tree: &Tree, parts: &mut [(usize, Part<T>)], values: &[T]) {
+/// [`FrontNumbers::forward`] of whole subtrees.
+fn forward<T: Scalar>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T>)], values: &[T]) {
     parts.par_iter_mut().for_each(|(t, part)| {
         let front = &tree.fronts[*t];
         if front.work <= SOLVED_ALONE {
@@ -288,8 +288,8 @@ fn forward<T: Scalar>(tree: &Tree, parts: &mut [(usize, Part<T>)], values: &[T])
     });
 }
 
-/// [`Part::backward`] of whole subtrees.
-fn backward<T: Scalar>(tree: &Tree, parts: &mut [(usize, Part<T>)], values: &[T]) {
+/// [`FrontNumbers::backward`] of whole subtrees.
+fn backward<T: Scalar>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T>)], values: &[T]) {
     parts.par_iter_mut().for_each(|(t, part)| {
         let front = &tree.fronts[*t];
         if front.work <= SOLVED_ALONE {

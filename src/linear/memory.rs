@@ -5,11 +5,11 @@ use nalgebra::SVector;
 /// The last steps of a descent over points of `D` coordinates, and how each changed the gradient.
 #[derive(Clone, Debug, Default)]
 pub struct Memory<const D: usize> {
-    pairs: Vec<Pair<D>>,
+    pairs: Vec<StepPair<D>>,
 }
 
 #[derive(Clone, Debug)]
-struct Pair<const D: usize> {
+struct StepPair<const D: usize> {
     step: Vec<SVector<f64, D>>,
     change: Vec<SVector<f64, D>>,
     /// 1 / (step · change).
@@ -37,7 +37,7 @@ impl<const D: usize> Memory<D> {
     pub fn remember(&mut self, step: Vec<SVector<f64, D>>, change: Vec<SVector<f64, D>>) {
         let curvature = dot(&step, &change);
         if curvature > f64::EPSILON * dot(&step, &step).sqrt() * dot(&change, &change).sqrt() {
-            self.pairs.push(Pair { step, change, weight: 1.0 / curvature });
+            self.pairs.push(StepPair { step, change, weight: 1.0 / curvature });
         }
     }
 

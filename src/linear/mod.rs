@@ -14,9 +14,11 @@ mod fronts;
 mod matrix;
 mod memory;
 mod pattern;
+mod scalar;
 mod tree;
 
-pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Scalar};
+pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite};
 pub use matrix::{BlockColumn, SymmetricMatrix};
 pub use memory::{Memory, advance, dot};
 pub use pattern::{BlockSlot, PatternError, Slot, SymmetricPattern};
+pub use scalar::Scalar;

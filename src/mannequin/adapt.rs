@@ -2,7 +2,7 @@
 
 use super::measures::{Meaning, Measures, meaning};
 use super::spec::{ArmRow, LegRow, MannequinSpec, TorsoRow, UNIT};
-use super::{Mannequin, MannequinError, PartKind, Place, build, check_body};
+use super::{FilePlace, Mannequin, MannequinError, PartKind, build, check_body};
 use crate::geometry::Vec3;
 
 /// Measures are met within this on the finished surface, mm.
@@ -267,7 +267,7 @@ pub fn build_measured(spec: &MannequinSpec, measures: &Measures) -> Result<Manne
         let mannequin = met(&mut adapted, measures)?;
         let missed = missed(&mannequin, measures).map(|(_, meaning, _)| !matches!(meaning, Meaning::Leg(_)));
         // A fault of the skin itself is told by what puts cloth on it.
-        let check = check_body(&mannequin.mesh, Place::millimetres).ok().and_then(|check| check.crossings);
+        let check = check_body(&mannequin.mesh, FilePlace::millimetres).ok().and_then(|check| check.crossings);
         let crotch = adapted.torso[0].y * UNIT;
         let Some(is_arm) = missed.or(check.map(|(_, at)| at.y > crotch)) else { return Ok(mannequin) };
         if is_arm {

@@ -1,11 +1,11 @@
 //! From a mannequin's numbers to its closed mesh.
 
-use super::field::Body;
+use super::field::BodyField;
 use super::parts::parts;
 use super::relax::{mirrored, relax};
 use super::spec::MannequinSpec;
 use super::surface::surface_nets;
-use super::{Frame, Mannequin, MannequinError};
+use super::{BodyFrame, Mannequin, MannequinError};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
 /// Side of the cells in which the skin is found, metres. Edges become about as long. With 10 mm the girths of a grown
@@ -30,7 +30,7 @@ const TRIES: [f64; 4] = [1.0, 0.97, 0.91, 0.83];
 /// # Errors
 /// [`MannequinError::Surface`] when the sections make no simple closed body (for example an arm through the hip).
 pub fn build(spec: &MannequinSpec) -> Result<Mannequin, MannequinError> {
-    let body = Body::new(spec);
+    let body = BodyField::new(spec);
     let mut fault = String::new();
     let cell = CELL * (body.top() / GROWN).clamp(SMALLEST, 1.0);
     for size in TRIES {
@@ -43,7 +43,7 @@ pub fn build(spec: &MannequinSpec) -> Result<Mannequin, MannequinError> {
                     name: spec.name.clone(),
                     mesh,
                     parts: parts(spec, &body),
-                    frame: Frame::default(),
+                    frame: BodyFrame::default(),
                 });
             }
             Some(why) => fault = why,
@@ -52,7 +52,7 @@ pub fn build(spec: &MannequinSpec) -> Result<Mannequin, MannequinError> {
     Err(MannequinError::Surface { name: spec.name.clone(), why: fault })
 }
 
-fn skin_fault(mesh: &TriMesh, body: &Body) -> Option<String> {
+fn skin_fault(mesh: &TriMesh, body: &BodyField) -> Option<String> {
     let topology = Topology::new(&mesh.triangles);
     let place = |v: u32| millimetres(mesh.vertices[v as usize]);
     if let Some(edge) = topology.rim_edges().next() {

@@ -36,14 +36,14 @@ pub(super) fn face_is_crossed(values: &[f64; 8], axis: usize, side: usize) -> bo
 
 /// The patches of surface in a cube. A cube with one patch is the rule. Two sheets of skin in one cube are two patches,
 /// each with its own vertex, which keeps the net manifold.
-pub(super) struct Crossing {
+pub(super) struct CellPatches {
     /// The patch that meets each edge of the cube. `None` where the surface does not cross the edge.
     pub(super) patch_of: [Option<u8>; EDGES],
     /// Number of patches.
     pub(super) patches: u8,
 }
 
-impl Crossing {
+impl CellPatches {
     /// From the values at the corners, negative inside.
     pub(super) fn new(values: &[f64; 8]) -> Self {
         let mut group: [usize; EDGES] = std::array::from_fn(|e| e);
@@ -137,18 +137,18 @@ mod tests {
 
     #[test]
     fn opposite_corners_are_two_patches() {
-        assert_eq!(Crossing::new(&signs(&[])).patches, 0);
-        assert_eq!(Crossing::new(&signs(&[0, 1, 2, 3])).patches, 1);
-        assert_eq!(Crossing::new(&signs(&[0, 7])).patches, 2);
-        assert_eq!(Crossing::new(&signs(&[0, 3])).patches, 2);
+        assert_eq!(CellPatches::new(&signs(&[])).patches, 0);
+        assert_eq!(CellPatches::new(&signs(&[0, 1, 2, 3])).patches, 1);
+        assert_eq!(CellPatches::new(&signs(&[0, 7])).patches, 2);
+        assert_eq!(CellPatches::new(&signs(&[0, 3])).patches, 2);
         // Two outside corners on a diagonal of a face, the other six inside: one patch.
-        assert_eq!(Crossing::new(&signs(&[0, 3, 4, 5, 6, 7])).patches, 1);
+        assert_eq!(CellPatches::new(&signs(&[0, 3, 4, 5, 6, 7])).patches, 1);
     }
 
     #[test]
     fn a_flat_patch_lies_where_the_values_vanish() {
         let values = std::array::from_fn(|c| if c >> 2 & 1 == 1 { 0.75 } else { -0.25 });
-        let middles: Vec<Vec3> = Crossing::new(&values).middles(&values).collect();
+        let middles: Vec<Vec3> = CellPatches::new(&values).middles(&values).collect();
         assert_eq!(middles, [Vec3::new(0.5, 0.5, 0.25)]);
     }
 }

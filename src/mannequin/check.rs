@@ -8,14 +8,14 @@ use crate::input::LengthUnit;
 
 /// A place on a surface, in the coordinates and the unit of its own file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct FilePlace {
     /// Coordinates.
     pub at: Vec3,
     /// Their unit.
     pub unit: LengthUnit,
 }
 
-impl Place {
+impl FilePlace {
     /// A point in metres, told in millimetres.
     pub fn millimetres(p: Vec3) -> Self {
         let unit = LengthUnit::Millimetre;
@@ -23,7 +23,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (p, digits) = (self.at, self.unit.decimals());
         write!(f, "({:.digits$}, {:.digits$}, {:.digits$}) {}", p.x, p.y, p.z, self.unit.symbol())
@@ -42,7 +42,7 @@ pub enum BodyFault {
         /// Edges with one triangle.
         edges: usize,
         /// On one of them.
-        place: Place,
+        place: FilePlace,
     },
     /// Edges with more than two triangles.
     #[error("{edges} edges have more than two triangles, one near {place}; remove inner faces")]
@@ -50,7 +50,7 @@ pub enum BodyFault {
         /// Number of rim edges.
         edges: usize,
         /// On one of them.
-        place: Place,
+        place: FilePlace,
     },
     /// Neighbouring triangles that face opposite ways.
     #[error("{pairs} neighbouring triangles face opposite ways, near {place}; recalculate the normals outside")]
@@ -58,7 +58,7 @@ pub enum BodyFault {
         /// Number of crossing pairs.
         pairs: usize,
         /// On one of them.
-        place: Place,
+        place: FilePlace,
     },
     /// A surface folded onto itself.
     #[error("the surface is flat: it encloses no volume; a body is a solid, so give a surface with an inside")]
@@ -90,7 +90,7 @@ pub struct BodyCheck {
 ///
 /// # Errors
 /// The first [`BodyFault`].
-pub fn check_body(mesh: &TriMesh, told: impl Fn(Vec3) -> Place) -> Result<BodyCheck, BodyFault> {
+pub fn check_body(mesh: &TriMesh, told: impl Fn(Vec3) -> FilePlace) -> Result<BodyCheck, BodyFault> {
     let topology = Topology::new(&mesh.triangles);
     let at = |v: u32| told(mesh.vertices[v as usize]);
     let edges = topology.rim_edges().count();

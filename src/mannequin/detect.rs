@@ -33,14 +33,14 @@ const HAND: f64 = 1.1;
 
 /// A horizontal cut of the trunk.
 #[derive(Clone, Copy)]
-struct Cut {
+struct TrunkCut {
     y: f64,
     low: Vec3,
     high: Vec3,
     girth: f64,
 }
 
-impl Cut {
+impl TrunkCut {
     fn new(l: &Loop) -> Self {
         Self { y: l.low.y, low: l.low, high: l.high, girth: tape(&l.points, Vec3::x(), Vec3::z()) }
     }
@@ -69,7 +69,7 @@ pub fn find_parts(mesh: &TriMesh) -> Result<Vec<BodyPart>, String> {
         .map(|i| i as f64 * step)
         .map(|y| (y, slice(mesh, Vec3::new(0.0, y, 0.0), Vec3::y())))
         .collect();
-    let trunk: Vec<Cut> = levels.iter().filter_map(|(y, loops)| trunk_cut(*y, loops, &labels)).collect();
+    let trunk: Vec<TrunkCut> = levels.iter().filter_map(|(y, loops)| trunk_cut(*y, loops, &labels)).collect();
     let waist = trunk.iter().find(|c| c.y > WAIST * top).ok_or("no trunk found at mid height")?;
     let middle = 0.5 * (waist.low.x + waist.high.x);
     let side = trunk_side(&trunk, middle, labels.armpit).ok_or("no trunk found between crotch and armpits")?;
@@ -97,9 +97,9 @@ fn by_width(a: &&Loop, b: &&Loop) -> std::cmp::Ordering {
 }
 
 /// The cut of the trunk at height `y`, if there is one above the crotch.
-fn trunk_cut(y: f64, loops: &[Loop], labels: &Labels) -> Option<Cut> {
+fn trunk_cut(y: f64, loops: &[Loop], labels: &Labels) -> Option<TrunkCut> {
     let own = |l: &&Loop| l.edges.iter().any(|edge| labels.is_of_trunk(*edge, y));
-    loops.iter().filter(|_| y > labels.crotch).filter(own).max_by(by_width).map(Cut::new)
+    loops.iter().filter(|_| y > labels.crotch).filter(own).max_by(by_width).map(TrunkCut::new)
 }
 
 /// Where the neck is among the cuts of the trunk.
@@ -113,8 +113,8 @@ struct Neck {
 impl Neck {
     /// Found downward from the narrowest cut, which is no more than `high` metres above the shoulders of a trunk with
     /// this half width at the `armpit`.
-    fn find(trunk: &[Cut], armpit: f64, side: f64, high: f64) -> Option<Self> {
-        let width = |c: &Cut| 0.5 * (c.high.x - c.low.x);
+    fn find(trunk: &[TrunkCut], armpit: f64, side: f64, high: f64) -> Option<Self> {
+        let width = |c: &TrunkCut| 0.5 * (c.high.x - c.low.x);
         let shoulders = trunk.iter().position(|c| c.y > armpit && width(c) < SHOULDERS * side)?;
         // The very top of a head, or of a form without one, is no neck unless that is short.
         let end = trunk.len().checked_sub(2)?.max(shoulders + 1);
@@ -127,15 +127,15 @@ impl Neck {
 }
 
 /// Half width of the trunk where the arms leave it: the widest cut between its waist and the lower `armpit`.
-fn trunk_side(trunk: &[Cut], middle: f64, armpit: f64) -> Option<f64> {
+fn trunk_side(trunk: &[TrunkCut], middle: f64, armpit: f64) -> Option<f64> {
     // In the upper half of what is below the armpit. The hips are in the lower one.
     let below = &trunk[..trunk.iter().take_while(|c| c.y < armpit).count()];
-    let half_width = |c: &Cut| (c.high.x - middle).min(middle - c.low.x);
+    let half_width = |c: &TrunkCut| (c.high.x - middle).min(middle - c.low.x);
     below[below.len() / 2..].iter().map(half_width).reduce(f64::max)
 }
 
-fn torso(trunk: &[Cut], crotch: f64, middle: f64, side: f64) -> BodyPart {
-    let clipped = |c: &Cut| {
+fn torso(trunk: &[TrunkCut], crotch: f64, middle: f64, side: f64) -> BodyPart {
+    let clipped = |c: &TrunkCut| {
         // Where arms are in the cut, the trunk ends at its own side.
         let mut section = c.section();
         if section.half_width > side && c.y > 0.5 * (crotch + trunk[trunk.len() - 1].y) {
@@ -162,16 +162,16 @@ fn torso(trunk: &[Cut], crotch: f64, middle: f64, side: f64) -> BodyPart {
 }
 
 /// The neck, up to its narrowest cut and the two above.
-fn neck_part(cuts: &[Cut], narrowest: usize) -> BodyPart {
+fn neck_part(cuts: &[TrunkCut], narrowest: usize) -> BodyPart {
     let end = (narrowest + 3).min(cuts.len());
-    let sections: Vec<Section> = cuts[..end].iter().map(Cut::section).collect();
+    let sections: Vec<Section> = cuts[..end].iter().map(TrunkCut::section).collect();
     let landmarks = vec![("neck base".to_owned(), sections[0].center)];
     BodyPart { kind: PartKind::Neck, sections, landmarks }
 }
 
 /// Inputs of the search for an arm.
 struct ArmSearch<'a> {
-    trunk: &'a [Cut],
+    trunk: &'a [TrunkCut],
     middle: f64,
     side: f64,
     sign: f64,
@@ -275,7 +275,7 @@ fn leg(levels: &[(f64, Vec<Loop>)], kind: PartKind, labels: &Labels, ankle: f64)
     let of_leg = |l: &&Loop| l.edges.iter().any(|edge| labels.is_of_leg(*edge, kind));
     let below = levels.iter().rev().filter(|l| l.0 < labels.crotch && l.0 >= ankle);
     let cuts = below.filter_map(|(_, loops)| loops.iter().filter(of_leg).max_by(by_width));
-    let sections: Vec<Section> = cuts.map(|l| Section { axis: -Vec3::y(), ..Cut::new(l).section() }).collect();
+    let sections: Vec<Section> = cuts.map(|l| Section { axis: -Vec3::y(), ..TrunkCut::new(l).section() }).collect();
     let last = sections.len().checked_sub(1).ok_or_else(|| format!("no {} found below the crotch", kind.name()))?;
     let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * last as f64) as usize].center);
     // The knee is a little below the middle of crotch and ankle.

@@ -1,6 +1,6 @@
 //! The body as one smooth function of space: negative inside, about a distance near the surface.
 
-use super::loft::{Profile, ellipse, perimeter};
+use super::loft::{RowProfile, ellipse, perimeter};
 use super::spec::{MannequinSpec, TorsoRow, UNIT};
 use crate::geometry::{Vec3, bisect};
 
@@ -23,7 +23,7 @@ const CROTCH_REACH: f64 = 0.1;
 
 /// A convex section: half axes, exponent, and where it is cut.
 #[derive(Clone, Copy)]
-struct Cut {
+struct ConvexSection {
     a: f64,
     b: f64,
     n: f64,
@@ -31,7 +31,7 @@ struct Cut {
     cap: f64,
 }
 
-impl Cut {
+impl ConvexSection {
     /// Approximate distance from the skin of the point (u, v) across and `beyond` the tube's end. It is the section's
     /// own norm r (1 on the skin) scaled to a length that is exact along rays from the centre and smooth at the centre.
     fn distance(&self, u: f64, v: f64, beyond: f64) -> f64 {
@@ -54,7 +54,7 @@ pub(super) struct Arm {
     /// Across the axis in the plane of abduction, outward.
     pub(super) across: Vec3,
     /// Half axes (across, fore and aft) by distance from the joint.
-    pub(super) profile: Profile<2>,
+    pub(super) profile: RowProfile<2>,
     /// Distance along the axis from the joint to the acromion's level (negative).
     pub(super) acromion: f64,
     depth_axis: Vec3,
@@ -70,7 +70,7 @@ impl Arm {
         let acromion = (Vec3::from(arm.shoulder) * UNIT - joint).dot(&axis);
         let rows: Vec<_> =
             arm.rows.iter().map(|r| (r.at * UNIT + acromion, ellipse(r.girth * UNIT, arm.ratio))).collect();
-        Self { joint, axis, across, profile: Profile::new(&rows), acromion, depth_axis: across.cross(&axis) }
+        Self { joint, axis, across, profile: RowProfile::new(&rows), acromion, depth_axis: across.cross(&axis) }
     }
 
     fn distance(&self, p: Vec3) -> f64 {
@@ -79,17 +79,17 @@ impl Arm {
         let [a, b] = self.profile.eval(t);
         let end = self.profile.end() + WRIST_STUB * a;
         let (beyond, cap) = if t < 0.0 { (-t, a) } else { ((t - end).max(0.0), WRIST_CAP * a) };
-        Cut { a, b, n: 2.0, cap }.distance(q.dot(&self.across), q.dot(&self.depth_axis), beyond)
+        ConvexSection { a, b, n: 2.0, cap }.distance(q.dot(&self.across), q.dot(&self.depth_axis), beyond)
     }
 }
 
-/// The body's surface is where [`Body::distance`] is zero.
-pub(super) struct Body {
+/// The body's surface is where [`BodyField::distance`] is zero.
+pub(super) struct BodyField {
     /// (half width, z of the back, z of the front, exponent) by height. Back and front are lofted each for itself, so
     /// that the seat and the bust are as round as their own rows make them.
-    torso: Profile<4>,
+    torso: RowProfile<4>,
     /// (half width, half depth, x and z of the centre) by height.
-    pub(super) leg: Profile<4>,
+    pub(super) leg: RowProfile<4>,
     pub(super) arm: Arm,
     /// Heights, metres.
     pub(super) crotch: f64,
@@ -99,7 +99,7 @@ pub(super) struct Body {
     foot_cap: f64,
 }
 
-impl Body {
+impl BodyField {
     /// From a checked spec.
     pub(super) fn new(spec: &MannequinSpec) -> Self {
         let torso: Vec<_> = spec
@@ -113,14 +113,14 @@ impl Body {
         let height = |name: &str| spec.torso_row(name).map_or(torso[0].0, |r| r.y * UNIT);
         let leg = leg_rows(spec);
         Self {
-            leg: Profile::new(&leg),
+            leg: RowProfile::new(&leg),
             arm: Arm::new(spec),
             crotch: height("crotch"),
             hip: height("hip"),
             axilla: height("axilla"),
             shoulder: height("shoulder"),
             foot_cap: FOOT_CAP * leg[0].1[0],
-            torso: Profile::new(&torso),
+            torso: RowProfile::new(&torso),
         }
     }
 
@@ -147,12 +147,12 @@ impl Body {
 
     fn torso_distance(&self, p: Vec3) -> f64 {
         let [a, b, n, z] = self.trunk_at(p.y);
-        Cut { a, b, n, cap: NECK_CAP * b }.distance(p.x, p.z - z, (p.y - self.torso.end()).max(0.0))
+        ConvexSection { a, b, n, cap: NECK_CAP * b }.distance(p.x, p.z - z, (p.y - self.torso.end()).max(0.0))
     }
 
     fn leg_distance(&self, p: Vec3) -> f64 {
         let [a, b, x, z] = self.leg.eval(p.y);
-        Cut { a, b, n: 2.0, cap: self.foot_cap }.distance(p.x - x, p.z - z, (self.foot_cap - p.y).max(0.0))
+        ConvexSection { a, b, n: 2.0, cap: self.foot_cap }.distance(p.x - x, p.z - z, (self.foot_cap - p.y).max(0.0))
     }
 
     /// Legs below, trunk above, and between crotch and hip a mixture: there the two sections have the same outline

@@ -14,20 +14,20 @@ const ALONG: f64 = 0.985;
 /// Transformation that puts a body of one's own on y = 0, facing +z. It is the identity for a shipped body. Garments
 /// are made on the transformed body and written in the place of its file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct BodyFrame {
     /// Height of its lowest point in the file, metres.
     pub low: f64,
     /// Cosine and sine of the angle about y, from z to x, at which it faces in the file.
     pub front: [f64; 2],
 }
 
-impl Default for Frame {
+impl Default for BodyFrame {
     fn default() -> Self {
         Self { low: 0.0, front: [1.0, 0.0] }
     }
 }
 
-impl Frame {
+impl BodyFrame {
     /// That of a body that faces along z, to the front or to the back.
     pub fn along_z(mesh: &TriMesh) -> Self {
         Self::facing(mesh, Self::default().front)

@@ -1,6 +1,6 @@
 //! Where limbs join a body: what hangs down, apart from the rest, from where it joins that.
 
-use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
+use crate::geometry::{DisjointSets, MeshEdge, TriMesh, Vec3, range_of};
 
 /// A part that hangs down by less, metres, is no limb: fingers, a chin, a seat.
 pub(crate) const LIMB: f64 = 0.15;
@@ -16,7 +16,7 @@ pub(crate) struct Junction {
     /// Height of the lower end of the shorter one, metres.
     pub(crate) bottom: f64,
     /// The side of every vertex.
-    pub(crate) side: Vec<Side>,
+    pub(crate) side: Vec<JunctionSide>,
 }
 
 impl Junction {
@@ -31,8 +31,8 @@ impl Junction {
     pub(crate) fn cut(&self, mesh: &TriMesh, levels: &[f64], mut give: impl FnMut(usize, usize, [Vec3; 2])) {
         for (t, corners) in mesh.triangles.iter().enumerate() {
             let part = match corners.map(|v| self.side[v as usize]) {
-                [Side::Limb, Side::Limb, Side::Limb] => 0,
-                [Side::Beside, Side::Beside, Side::Beside] => 1,
+                [JunctionSide::Limb, JunctionSide::Limb, JunctionSide::Limb] => 0,
+                [JunctionSide::Beside, JunctionSide::Beside, JunctionSide::Beside] => 1,
                 _ => continue,
             };
             let [low, high] = range_of(mesh.corners(t).iter().map(|p| p.y));
@@ -48,7 +48,7 @@ impl Junction {
 
 /// The side of a vertex at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub(crate) enum JunctionSide {
     /// The shorter limb.
     Limb,
     /// The part that the limb hangs beside.
@@ -59,7 +59,7 @@ pub(crate) enum Side {
 
 /// The junctions of a closed surface from the floor up: where skin that is apart below a height comes together at it.
 /// Skin that hangs down from there by less than `least` (metres) is no limb.
-pub(crate) fn junctions(mesh: &TriMesh, edges: &[Edge], least: f64) -> Vec<Junction> {
+pub(crate) fn junctions(mesh: &TriMesh, edges: &[MeshEdge], least: f64) -> Vec<Junction> {
     let (order, lower) = upward(mesh, edges);
     let mut sets = DisjointSets::new(order.len());
     // Of a set's leader: the height of its lowest vertex.
@@ -86,7 +86,7 @@ pub(crate) fn junctions(mesh: &TriMesh, edges: &[Edge], least: f64) -> Vec<Junct
 }
 
 /// The vertices from the lowest up, and of each the neighbours that come before it.
-fn upward(mesh: &TriMesh, edges: &[Edge]) -> (Vec<u32>, Vec<Vec<u32>>) {
+fn upward(mesh: &TriMesh, edges: &[MeshEdge]) -> (Vec<u32>, Vec<Vec<u32>>) {
     let mut order: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
     order.sort_by(|a, b| height(mesh, *a).total_cmp(&height(mesh, *b)).then(a.cmp(b)));
     let mut rank = vec![0; order.len()];
@@ -104,12 +104,12 @@ fn height(mesh: &TriMesh, v: u32) -> f64 {
 }
 
 /// The side of every vertex of two sets that meet.
-fn sides(sets: &mut DisjointSets, [limb, beside]: [u32; 2]) -> Vec<Side> {
+fn sides(sets: &mut DisjointSets, [limb, beside]: [u32; 2]) -> Vec<JunctionSide> {
     let count = sets.len() as u32;
     let side = |v| match sets.root(v) {
-        root if root == limb => Side::Limb,
-        root if root == beside => Side::Beside,
-        _ => Side::Neither,
+        root if root == limb => JunctionSide::Limb,
+        root if root == beside => JunctionSide::Beside,
+        _ => JunctionSide::Neither,
     };
     (0..count).map(side).collect()
 }

@@ -7,8 +7,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::PartKind;
-use super::junction::{Junction, Side, junctions};
-use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
+use super::junction::{Junction, JunctionSide, junctions};
+use crate::geometry::{DisjointSets, MeshEdge, TriMesh, Vec3, range_of};
 
 /// Largest height of a crotch, as a share of the body's height.
 const HIGHEST_CROTCH: f64 = 0.62;
@@ -34,7 +34,7 @@ pub(super) struct Labels {
 
 impl Labels {
     /// Labels of a body that stands on y = 0 and is `top` metres high, or what is missing.
-    pub(super) fn new(mesh: &TriMesh, edges: &[Edge], top: f64) -> Result<Self, String> {
+    pub(super) fn new(mesh: &TriMesh, edges: &[MeshEdge], top: f64) -> Result<Self, String> {
         let fork = fork(mesh, edges, top).ok_or("no two legs found: the body must stand upright, y up")?;
         let mut of = legs(mesh, &fork);
         let near = neighbours(edges, mesh.vertices.len());
@@ -75,7 +75,7 @@ impl Labels {
     }
 
     /// The part that most vertices of one side of a junction are of.
-    pub(super) fn most_of(&self, junction: &Junction, side: Side) -> Option<PartKind> {
+    pub(super) fn most_of(&self, junction: &Junction, side: JunctionSide) -> Option<PartKind> {
         let own = || self.of.iter().zip(&junction.side).filter(|(_, s)| **s == side).map(|(label, _)| *label);
         let count = own().count();
         let limbs = [PartKind::LeftLeg, PartKind::RightLeg, PartKind::LeftArm, PartKind::RightArm];
@@ -94,33 +94,33 @@ pub(super) fn no_arm(arm: PartKind) -> String {
 }
 
 /// The highest junction, of those that a crotch may be, of two limbs that reach down to the feet.
-fn fork(mesh: &TriMesh, edges: &[Edge], top: f64) -> Option<Junction> {
+fn fork(mesh: &TriMesh, edges: &[MeshEdge], top: f64) -> Option<Junction> {
     let found = junctions(mesh, edges, LEG * top);
     found.into_iter().rev().find(|j| j.bottom < FOOT_ENDS * top && j.top < HIGHEST_CROTCH * top)
 }
 
 /// Labels of the two legs, the left one at greater x.
 fn legs(mesh: &TriMesh, fork: &Junction) -> Vec<Option<PartKind>> {
-    let mean = |side: Side| {
+    let mean = |side: JunctionSide| {
         let own = mesh.vertices.iter().zip(&fork.side).filter(|(_, s)| **s == side).map(|(p, _)| p.x);
         let (sum, count) = own.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
         sum / count
     };
-    let [limb, beside] = if mean(Side::Limb) > mean(Side::Beside) {
+    let [limb, beside] = if mean(JunctionSide::Limb) > mean(JunctionSide::Beside) {
         [PartKind::LeftLeg, PartKind::RightLeg]
     } else {
         [PartKind::RightLeg, PartKind::LeftLeg]
     };
-    let label = |side: &Side| match side {
-        Side::Limb => Some(limb),
-        Side::Beside => Some(beside),
-        Side::Neither => None,
+    let label = |side: &JunctionSide| match side {
+        JunctionSide::Limb => Some(limb),
+        JunctionSide::Beside => Some(beside),
+        JunctionSide::Neither => None,
     };
     fork.side.iter().map(label).collect()
 }
 
 /// The vertices next to every vertex.
-fn neighbours(edges: &[Edge], vertices: usize) -> Vec<Vec<u32>> {
+fn neighbours(edges: &[MeshEdge], vertices: usize) -> Vec<Vec<u32>> {
     let mut near = vec![Vec::new(); vertices];
     for [a, b] in edges.iter().map(|e| e.ends) {
         near[a as usize].push(b);
@@ -148,7 +148,7 @@ impl PartialOrd for Queued {
 }
 
 /// The least cost of a way along edges from one of `start` to every vertex. `step` tells the cost at the second vertex
-/// of an edge from that at the first, and `None` where no way leads. What cannot be reached is infinitely far.
+/// of an edge from that at the first, and `None` where no way leads. A vertex that cannot be reached is infinitely far.
 fn flood(near: &[Vec<u32>], start: &[u32], step: impl Fn(f64, u32, u32) -> Option<f64>) -> Vec<f64> {
     let mut cost = vec![f64::INFINITY; near.len()];
     let mut queue = BinaryHeap::new();
@@ -195,14 +195,14 @@ impl Beside {
 
 /// The skin that hangs together beyond some distance from the crotch.
 #[derive(Clone, Copy)]
-struct Patch {
+struct SkinPatch {
     /// Its farthest vertex, and how far along the skin that is.
     tip: (u32, f64),
     /// The least and the greatest place beside the middle.
     out: [f64; 2],
 }
 
-impl Patch {
+impl SkinPatch {
     fn with(self, other: Self) -> Self {
         let tip = if other.tip.1 > self.tip.1 { other.tip } else { self.tip };
         Self { tip, out: [self.out[0].min(other.out[0]), self.out[1].max(other.out[1])] }
@@ -215,10 +215,10 @@ fn arm_of(mesh: &TriMesh, near: &[Vec<u32>], far: &[f64], beside: &Beside) -> Op
     let mut order: Vec<u32> = (0..near.len() as u32).filter(|v| far[*v as usize].is_finite()).collect();
     order.sort_by(|a, b| far[*b as usize].total_cmp(&far[*a as usize]).then(a.cmp(b)));
     let mut sets = DisjointSets::new(near.len());
-    let mut patch: Vec<Patch> = (0..near.len() as u32)
+    let mut patch: Vec<SkinPatch> = (0..near.len() as u32)
         .map(|v| {
             let out = beside.out(&mesh.vertices[v as usize]);
-            Patch { tip: (v, far[v as usize]), out: [out, out] }
+            SkinPatch { tip: (v, far[v as usize]), out: [out, out] }
         })
         .collect();
     let mut done = vec![false; near.len()];

@@ -25,7 +25,7 @@ pub fn library() -> Vec<&'static str> {
 }
 
 /// A body as its file has it.
-enum File {
+enum BodyFile {
     Sections(MannequinSpec),
     Measures(Measures),
 }
@@ -64,8 +64,8 @@ pub fn load_measured(name_or_path: &str, given: &Measures) -> Result<Mannequin, 
 /// The sections of a mannequin by name or path, and the measures that are put on them.
 fn of(name_or_path: &str) -> Result<(MannequinSpec, Measures), MannequinError> {
     let measures = match file(name_or_path)? {
-        File::Sections(spec) => return Ok((spec, Measures::default())),
-        File::Measures(measures) => measures,
+        BodyFile::Sections(spec) => return Ok((spec, Measures::default())),
+        BodyFile::Measures(measures) => measures,
     };
     let fault = |why: String| MannequinError::Value { file: name_or_path.to_owned(), why };
     let known = library().join(", ");
@@ -73,17 +73,17 @@ fn of(name_or_path: &str) -> Result<(MannequinSpec, Measures), MannequinError> {
     let like =
         like.ok_or_else(|| fault(format!("measures need a mannequin that has the rest; say 'like: {known}'")))?;
     match file(like)? {
-        File::Sections(spec) => {
+        BodyFile::Sections(spec) => {
             let stem = Path::new(name_or_path).file_stem().map(|stem| stem.to_string_lossy().into_owned());
             Ok((MannequinSpec { name: stem.unwrap_or_else(|| spec.name.clone()), ..spec }, measures))
         }
-        File::Measures(_) => Err(fault(format!("like: '{like}' holds measures, too; there are {known}"))),
+        BodyFile::Measures(_) => Err(fault(format!("like: '{like}' holds measures, too; there are {known}"))),
     }
 }
 
-fn file(name_or_path: &str) -> Result<File, MannequinError> {
+fn file(name_or_path: &str) -> Result<BodyFile, MannequinError> {
     if let Some((name, text)) = SHIPPED.iter().find(|s| s.0 == name_or_path) {
-        return MannequinSpec::parse(text, name).map(File::Sections);
+        return MannequinSpec::parse(text, name).map(BodyFile::Sections);
     }
     let path = Path::new(name_or_path);
     if path.extension().is_none() {
@@ -99,9 +99,9 @@ fn file(name_or_path: &str) -> Result<File, MannequinError> {
     // Sections always have a torso, measures never.
     let has_torso = text.lines().any(|line| line.trim_start().starts_with("torso:"));
     if has_torso {
-        MannequinSpec::parse(&text, name_or_path).map(File::Sections)
+        MannequinSpec::parse(&text, name_or_path).map(BodyFile::Sections)
     } else {
-        Measures::parse(&text, name_or_path).map(File::Measures)
+        Measures::parse(&text, name_or_path).map(BodyFile::Measures)
     }
 }
 

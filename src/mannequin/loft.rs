@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 /// `K` values that follow monotone cubics (Fritsch–Carlson) through rows: no overshoot between two rows, so a hip is
 /// nowhere wider than measured.
 #[derive(Clone, Debug)]
-pub(super) struct Profile<const K: usize> {
+pub(super) struct RowProfile<const K: usize> {
     at: Vec<f64>,
     values: Vec<[f64; K]>,
     slopes: Vec<[f64; K]>,
 }
 
-impl<const K: usize> Profile<K> {
+impl<const K: usize> RowProfile<K> {
     /// Through `rows` (two or more, positions rising).
     pub(super) fn new(rows: &[(f64, [f64; K])]) -> Self {
         let at: Vec<f64> = rows.iter().map(|r| r.0).collect();
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_profile_meets_its_rows_and_does_not_overshoot() {
-        let profile = Profile::new(&[(0.0, [1.0]), (1.0, [2.0]), (1.5, [2.0]), (4.0, [0.5])]);
+        let profile = RowProfile::new(&[(0.0, [1.0]), (1.0, [2.0]), (1.5, [2.0]), (4.0, [0.5])]);
         assert_eq!(profile.eval(1.0), [2.0]);
         assert_eq!(profile.eval(-1.0), [1.0]);
         for i in 0..=400 {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::MannequinError;
-use crate::input::{LengthUnit, nearest, yaml};
+use crate::input::{LengthUnit, did_you_mean, nearest, yaml};
 
 /// The part of a mannequin's sections that a measure gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,7 +101,7 @@ const RANGE: std::ops::RangeInclusive<f64> = 20.0..=2600.0;
 
 /// A measure that was given.
 #[derive(Clone, Debug, PartialEq)]
-struct Given {
+struct GivenMeasure {
     name: &'static str,
     /// The name that was used.
     written: String,
@@ -114,7 +114,7 @@ struct Given {
 pub struct Measures {
     /// Name of a mannequin or a file. `None` where nobody has said.
     pub like: Option<String>,
-    given: Vec<Given>,
+    given: Vec<GivenMeasure>,
     /// Those that no section has.
     unused: Vec<&'static str>,
 }
@@ -127,8 +127,7 @@ impl Measures {
     pub fn add(&mut self, name: &str, mm: f64) -> Result<(), String> {
         let Some((own, _, meaning)) = known(name) else {
             let names = KNOWN.iter().flat_map(|(own, others, _)| std::iter::once(own).chain(*others)).copied();
-            let hint = nearest(name, names).map(|n| format!("; did you mean '{n}'?")).unwrap_or_default();
-            return Err(format!("'{name}' is no measure{hint}"));
+            return Err(format!("'{name}' is no measure{}", did_you_mean(nearest(name, names))));
         };
         if *meaning == Unused {
             self.unused.push(own);
@@ -141,7 +140,7 @@ impl Measures {
             let (low, high) = (RANGE.start(), RANGE.end());
             return Err(format!("'{name}' is {mm} mm; it must be {low} to {high} mm, bare numbers being millimetres"));
         }
-        self.given.push(Given { name: own, written: name.to_owned(), meaning: *meaning, mm });
+        self.given.push(GivenMeasure { name: own, written: name.to_owned(), meaning: *meaning, mm });
         Ok(())
     }
 
@@ -176,7 +175,7 @@ impl Measures {
     /// These measures, and those of `other` that are not among them.
     pub fn over(mut self, other: &Self) -> Self {
         let more = other.given.iter().filter(|given| self.given(given.name).is_none()).cloned();
-        let more: Vec<Given> = more.collect();
+        let more: Vec<GivenMeasure> = more.collect();
         self.given.extend(more);
         self.like = self.like.or_else(|| other.like.clone());
         self
@@ -217,7 +216,7 @@ fn known(name: &str) -> Option<&'static Known> {
     KNOWN.iter().find(|(own, others, _)| *own == name || others.contains(&name))
 }
 
-/// What a measure of this name says.
+/// The meaning of a measure of this name.
 pub(super) fn meaning(name: &str) -> Option<Meaning<'static>> {
     known(name).map(|known| known.2)
 }

@@ -23,24 +23,25 @@ mod surface;
 
 pub use adapt::build_measured;
 pub use build::build;
-pub use check::{BodyCheck, BodyFault, Place, check_body};
+pub use check::{BodyCheck, BodyFault, FilePlace, check_body};
 pub use detect::find_parts;
-pub use frame::Frame;
-pub(crate) use junction::{Junction, LEVEL, LIMB, Side, junctions};
+pub use frame::BodyFrame;
+pub(crate) use junction::{Junction, JunctionSide, LEVEL, LIMB, junctions};
 pub use library::{library, load, load_measured};
 pub use measures::Measures;
 pub use room::{GAP, make_room};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
-pub(crate) use spread::Spread;
+pub(crate) use spread::LimbSpread;
 
 use crate::geometry::{TriMesh, Vec3};
+use crate::input::did_you_mean;
 
 /// Why there is no mannequin.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MannequinError {
     /// Neither a library name nor a file.
     #[error("mannequin '{name}' not found{}; there are {known}, or give the path of a .yaml or .obj file",
-            nearest.as_ref().map(|n| format!("; did you mean '{n}'?")).unwrap_or_default())]
+            did_you_mean(nearest.as_deref()))]
     Unknown {
         /// As asked for.
         name: String,
@@ -101,7 +102,7 @@ pub struct Mannequin {
     /// Torso, neck, arms, legs.
     pub parts: Vec<BodyPart>,
     /// Transformation to the body's own file.
-    pub frame: Frame,
+    pub frame: BodyFrame,
 }
 
 /// Heights of bodies that can be dressed, metres, from a doll's to a shop window's. Other heights mean another unit.

@@ -1,6 +1,6 @@
 //! The body parts of a built mannequin: sections and landmarks, read off the lofts.
 
-use super::field::Body;
+use super::field::BodyField;
 use super::loft::perimeter;
 use super::spec::{MannequinSpec, UNIT};
 use super::{BodyPart, PartKind, Section};
@@ -10,7 +10,7 @@ use crate::geometry::Vec3;
 const SPACING: f64 = 0.025;
 
 /// Torso, neck, arms and legs.
-pub(super) fn parts(spec: &MannequinSpec, body: &Body) -> Vec<BodyPart> {
+pub(super) fn parts(spec: &MannequinSpec, body: &BodyField) -> Vec<BodyPart> {
     let neck = spec.torso_row("neck base").map_or(body.neck_end(), |r| r.y * UNIT);
     let trunk = |from: f64, to: f64| stations(from, to).map(|y| torso_section(body, y)).collect();
     let marks = |low: f64, high: f64| {
@@ -34,12 +34,12 @@ fn stations(from: f64, to: f64) -> impl Iterator<Item = f64> {
     (0..=count as usize).map(move |i| from + (to - from) * i as f64 / count)
 }
 
-fn torso_section(body: &Body, y: f64) -> Section {
+fn torso_section(body: &BodyField, y: f64) -> Section {
     let [a, b, n, z] = body.trunk_at(y);
     Section { center: Vec3::new(0.0, y, z), axis: Vec3::y(), half_width: a, half_depth: b, girth: perimeter(a, b, n) }
 }
 
-fn left_arm(spec: &MannequinSpec, body: &Body) -> BodyPart {
+fn left_arm(spec: &MannequinSpec, body: &BodyField) -> BodyPart {
     let arm = &body.arm;
     let section = |t: f64| {
         let [a, b] = arm.profile.eval(t);
@@ -57,7 +57,7 @@ fn left_arm(spec: &MannequinSpec, body: &Body) -> BodyPart {
     BodyPart { kind: PartKind::LeftArm, sections, landmarks }
 }
 
-fn left_leg(spec: &MannequinSpec, body: &Body) -> BodyPart {
+fn left_leg(spec: &MannequinSpec, body: &BodyField) -> BodyPart {
     let center = |y: f64| {
         let [_, _, x, z] = body.leg.eval(y);
         Vec3::new(x, y, z)

@@ -1,6 +1,6 @@
 //! Makes the half surface's faces well shaped without leaving the body's skin, and mirrors it.
 
-use super::field::Body;
+use super::field::BodyField;
 use super::surface::HalfSurface;
 use crate::geometry::{TriMesh, Vec3};
 
@@ -14,8 +14,8 @@ const LAST_STEPS: usize = 3;
 const PROBE: f64 = 1e-4;
 
 /// Smooths `half` along `body`'s skin.
-pub(super) fn relax(half: &mut HalfSurface, body: &Body) {
-    let neighbours = Neighbours::new(half);
+pub(super) fn relax(half: &mut HalfSurface, body: &BodyField) {
+    let neighbours = QuadNeighbours::new(half);
     for _ in 0..ROUNDS {
         let normals = normals(half);
         let moved: Vec<Vec3> = (0..half.vertices.len())
@@ -37,7 +37,7 @@ pub(super) fn relax(half: &mut HalfSurface, body: &Body) {
 }
 
 /// One Newton step along `n` onto the skin. The point stays where the function is flat along `n`.
-fn project(body: &Body, p: Vec3, n: Vec3) -> Vec3 {
+fn project(body: &BodyField, p: Vec3, n: Vec3) -> Vec3 {
     let f = body.distance(p);
     let slope = (body.distance(p + n * PROBE) - f) / PROBE;
     if slope < 0.1 {
@@ -47,12 +47,12 @@ fn project(body: &Body, p: Vec3, n: Vec3) -> Vec3 {
 }
 
 /// Quad-edge neighbours of every vertex, as one flat list.
-struct Neighbours {
+struct QuadNeighbours {
     start: Vec<usize>,
     list: Vec<u32>,
 }
 
-impl Neighbours {
+impl QuadNeighbours {
     fn new(half: &HalfSurface) -> Self {
         let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(8 * half.quads.len());
         for q in &half.quads {

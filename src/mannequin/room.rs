@@ -1,8 +1,8 @@
 //! Limbs that almost touch give way, so that there is room for cloth between them.
 
-use super::junction::{Junction, LEVEL, LIMB, Side, junctions};
+use super::junction::{Junction, JunctionSide, LEVEL, LIMB, junctions};
 use super::label::Labels;
-use super::spread::Spread;
+use super::spread::LimbSpread;
 use super::{Mannequin, PartKind};
 use crate::geometry::{Topology, TriMesh, range_of};
 
@@ -17,7 +17,7 @@ const FORK: f64 = 0.5;
 const SMOOTH: usize = 6;
 
 /// Moves limbs of `body` sideways that are nearer than [`GAP`] to what they hang beside: two legs by half of the way
-/// each, an arm by all of it. What hangs lower goes at least as far, so every limb keeps its girths. Returns the limbs
+/// each, an arm by all of it. Lower sections go at least as far, so every limb keeps its girths. Returns the limbs
 /// and how far they went at most, metres. A body with room stays as it is.
 pub fn make_room(body: &mut Mannequin) -> Vec<(PartKind, f64)> {
     let edges = Topology::new(&body.mesh.triangles).edges;
@@ -25,17 +25,17 @@ pub fn make_room(body: &mut Mannequin) -> Vec<(PartKind, f64)> {
     let Ok(labels) = Labels::new(&body.mesh, &edges, top) else { return Vec::new() };
     let mut moved: Vec<(PartKind, f64)> = Vec::new();
     for junction in junctions(&body.mesh, &edges, LIMB) {
-        let kinds = [Side::Limb, Side::Beside].map(|side| labels.most_of(&junction, side));
+        let kinds = [JunctionSide::Limb, JunctionSide::Beside].map(|side| labels.most_of(&junction, side));
         let Some(limb) = kinds[0].filter(|kind| kind.is_arm() || kind.is_leg()) else { continue };
         let Some(by) = opening(&body.mesh, &junction, way_of(limb)) else { continue };
         // Of two legs both give way. What an arm hangs beside stays.
         let sides = match kinds[1].filter(|beside| limb.is_leg() && beside.is_leg()) {
-            Some(beside) => vec![(Side::Limb, limb, 0.5), (Side::Beside, beside, 0.5)],
-            None => vec![(Side::Limb, limb, 1.0)],
+            Some(beside) => vec![(JunctionSide::Limb, limb, 0.5), (JunctionSide::Beside, beside, 0.5)],
+            None => vec![(JunctionSide::Limb, limb, 1.0)],
         };
         for (side, kind, share) in sides {
             let by = by.iter().map(|by| by * share * way_of(kind)).collect();
-            let spread = Spread::new(&junction, side, kind, by);
+            let spread = LimbSpread::new(&junction, side, kind, by);
             spread.apply(&mut body.mesh, 1.0);
             spread.apply_to_part(&mut body.parts);
             moved.push((kind, spread.at(junction.bottom).abs()));
@@ -151,7 +151,7 @@ mod tests {
     fn opening_of(gap: f64, front: f64) -> Option<Vec<f64>> {
         let mesh = tubes(gap, front);
         let found = junctions(&mesh, &Topology::new(&mesh.triangles).edges, LIMB);
-        let right = found[0].side[24] == Side::Limb;
+        let right = found[0].side[24] == JunctionSide::Limb;
         opening(&mesh, &found[0], if right { 1.0 } else { -1.0 })
     }
 

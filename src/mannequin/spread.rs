@@ -1,11 +1,11 @@
 //! A limb moved sideways, level by level.
 
-use super::junction::{Junction, LEVEL, Side};
+use super::junction::{Junction, JunctionSide, LEVEL};
 use super::{BodyPart, PartKind, Section};
 use crate::geometry::{TriMesh, Vec3};
 
 /// A limb, and how far it is moved sideways at every height.
-pub(crate) struct Spread {
+pub(crate) struct LimbSpread {
     /// Its vertices.
     pub(crate) vertices: Vec<u32>,
     /// Which it is.
@@ -16,9 +16,9 @@ pub(crate) struct Spread {
     by: Vec<f64>,
 }
 
-impl Spread {
+impl LimbSpread {
     /// Of one side of a junction, moved `by` so much (metres) at every level from the junction down.
-    pub(crate) fn new(junction: &Junction, side: Side, kind: PartKind, by: Vec<f64>) -> Self {
+    pub(crate) fn new(junction: &Junction, side: JunctionSide, kind: PartKind, by: Vec<f64>) -> Self {
         let vertices = (0..junction.side.len() as u32).filter(|v| junction.side[*v as usize] == side).collect();
         Self { vertices, kind, top: junction.top, by }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::cell::{Crossing, corner, edge_index, face_is_crossed};
+use super::cell::{CellPatches, corner, edge_index, face_is_crossed};
 use crate::geometry::Vec3;
 
 /// Half of a closed quad mesh: x ≥ 0, the vertices of the cut at exactly x = 0.
@@ -18,13 +18,13 @@ type Cell = [i32; 3];
 
 /// A grid of cubes of side `h`. The plane x = 0 halves the first column of cells,
 /// so that the two halves share vertices.
-struct Grid<F> {
+struct CubeGrid<F> {
     function: F,
     h: f64,
     nodes: HashMap<Cell, f64>,
 }
 
-impl<F: Fn(Vec3) -> f64> Grid<F> {
+impl<F: Fn(Vec3) -> f64> CubeGrid<F> {
     fn position(&self, node: Cell) -> Vec3 {
         Vec3::new(f64::from(node[0]) - 0.5, f64::from(node[1]), f64::from(node[2])) * self.h
     }
@@ -50,7 +50,7 @@ impl<F: Fn(Vec3) -> f64> Grid<F> {
 /// A crossed cell: its first vertex, and how the surface runs through it.
 struct Crossed {
     first: u32,
-    crossing: Crossing,
+    crossing: CellPatches,
 }
 
 /// The crossed cells in the order they were found, and their vertices.
@@ -69,9 +69,9 @@ fn step(cell: Cell, axis: usize, by: i32) -> Cell {
 /// Follows the surface of one connected body outward from `inside`, a point in it on the plane x = 0, in cubes of side
 /// `h`. Only cells that the surface crosses are looked at. The result is closed once mirrored.
 pub(super) fn surface_nets(function: impl Fn(Vec3) -> f64, inside: Vec3, h: f64) -> HalfSurface {
-    let mut grid = Grid { function, h, nodes: HashMap::new() };
+    let mut grid = CubeGrid { function, h, nodes: HashMap::new() };
     let mut start = grid.cell_of(inside);
-    while Crossing::new(&grid.corners(start)).patches == 0 {
+    while CellPatches::new(&grid.corners(start)).patches == 0 {
         start = step(start, 2, 1);
     }
     let net = follow(&mut grid, start);
@@ -80,12 +80,12 @@ pub(super) fn surface_nets(function: impl Fn(Vec3) -> f64, inside: Vec3, h: f64)
 }
 
 /// Every crossed cell reachable from `start`, each with a vertex per patch of surface in it.
-fn follow<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, start: Cell) -> Net {
+fn follow<F: Fn(Vec3) -> f64>(grid: &mut CubeGrid<F>, start: Cell) -> Net {
     let mut net = Net { index: HashMap::from([(start, 0)]), cells: Vec::new(), vertices: Vec::new() };
     let mut queue = vec![start];
     while let Some(&cell) = queue.get(net.cells.len()) {
         let values = grid.corners(cell);
-        let crossing = Crossing::new(&values);
+        let crossing = CellPatches::new(&values);
         let first = net.vertices.len() as u32;
         for middle in crossing.middles(&values) {
             let mut p = grid.position(cell) + middle * grid.h;
@@ -107,7 +107,7 @@ fn follow<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, start: Cell) -> Net {
 }
 
 /// A quad round every grid edge that the surface crosses, once per edge, for x > 0.
-fn connect<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, net: &Net) -> Vec<[u32; 4]> {
+fn connect<F: Fn(Vec3) -> f64>(grid: &mut CubeGrid<F>, net: &Net) -> Vec<[u32; 4]> {
     let mut quads = Vec::new();
     for &(cell, _) in net.cells.iter().filter(|c| c.0[0] > 0) {
         let inside = grid.value(cell) < 0.0;

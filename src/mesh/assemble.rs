@@ -1,13 +1,13 @@
 //! Puts filled pieces together and pairs the particles of the seams.
 
-use super::build::Fill;
-use super::frame::Frame;
-use super::layout::Layout;
+use super::fill::Fill;
+use super::frame::PieceFrame;
+use super::layout::MeshLayout;
 use super::{ClothMesh, EdgeParticles, LineParticles, PieceMesh, Stitches, shape};
 
-impl Layout<'_> {
+impl MeshLayout<'_> {
     /// The mesh of all pieces, in the garment's order.
-    pub(super) fn assemble(&self, fills: Vec<(Frame, Fill)>) -> ClothMesh {
+    pub(super) fn assemble(&self, fills: Vec<(PieceFrame, Fill)>) -> ClothMesh {
         let mut mesh = ClothMesh { spacing: self.options.spacing, ..ClothMesh::default() };
         for (n, (frame, fill)) in fills.into_iter().enumerate() {
             let piece = self.piece_mesh(n, &frame, &fill, mesh.flat.len(), mesh.triangles.len());
@@ -21,7 +21,7 @@ impl Layout<'_> {
     }
 
     /// Describes piece `n`, whose particles and triangles will be numbered from `first` and `first_triangle`.
-    fn piece_mesh(&self, n: usize, frame: &Frame, fill: &Fill, first: usize, first_triangle: usize) -> PieceMesh {
+    fn piece_mesh(&self, n: usize, frame: &PieceFrame, fill: &Fill, first: usize, first_triangle: usize) -> PieceMesh {
         let piece = &self.garment.pieces[n];
         let global = |chain: &[u32]| chain.iter().map(|v| v + first as u32).collect::<Vec<_>>();
         let ids = &self.edges.ids[self.first_edge(n)..];
@@ -48,7 +48,7 @@ impl Layout<'_> {
     }
 
     /// Number, name and particles of every part of the lines of piece `n`, in the lines' order.
-    fn line_chains(&self, n: usize, frame: &Frame, fill: &Fill) -> Vec<(usize, String, Vec<u32>)> {
+    fn line_chains(&self, n: usize, frame: &PieceFrame, fill: &Fill) -> Vec<(usize, String, Vec<u32>)> {
         let (plan, first) = (&self.plans[n], self.first_edge(n));
         let across = plan.lines.iter().zip(&fill.lines).map(|(line, chain)| (line.number, line.at, chain.clone()));
         let along = plan.rim.iter().map(|line| {

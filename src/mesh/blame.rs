@@ -1,16 +1,16 @@
 //! Says which edges or lines of a piece the triangulation stumbled over.
 
 use super::error::MeshError;
-use super::frame::Frame;
+use super::frame::PieceFrame;
 use super::grid::Core;
-use super::layout::Layout;
+use super::layout::MeshLayout;
 use super::strip::StripError;
 use crate::geometry::Vec2;
 use crate::pattern::written_edge;
 
-impl Layout<'_> {
+impl MeshLayout<'_> {
     /// The error for piece `n` in the words of its pattern.
-    pub(super) fn blame(&self, n: usize, frame: &Frame, core: &Core, error: StripError) -> MeshError {
+    pub(super) fn blame(&self, n: usize, frame: &PieceFrame, core: &Core, error: StripError) -> MeshError {
         let piece = self.garment.pieces[n].name.clone();
         let names = |v: u32| self.carriers(n, frame, v);
         match error {
@@ -44,7 +44,7 @@ impl Layout<'_> {
     }
 
     /// The edge or line nearest to `at` that is none of `own`, if it is within reach of a spring or two.
-    fn nearest_other(&self, n: usize, frame: &Frame, at: Vec2, own: &[String]) -> Option<String> {
+    fn nearest_other(&self, n: usize, frame: &PieceFrame, at: Vec2, own: &[String]) -> Option<String> {
         let distance = |v: u32| (frame.points[v as usize] - at).norm();
         let near = (0..frame.points.len() as u32).filter(|&v| distance(v) < 2.0 * self.fineness[n].spacing);
         let mut near: Vec<u32> = near.collect();
@@ -53,7 +53,7 @@ impl Layout<'_> {
     }
 
     /// The edges and lines a frame particle lies on.
-    fn carriers(&self, n: usize, frame: &Frame, v: u32) -> Vec<String> {
+    fn carriers(&self, n: usize, frame: &PieceFrame, v: u32) -> Vec<String> {
         let edges = self.garment.pieces[n].loops.iter().flatten().zip(&frame.edges);
         let on = edges
             .filter(|(_, chain)| chain.contains(&v))
@@ -62,7 +62,7 @@ impl Layout<'_> {
     }
 
     /// Name of a line through a frame particle.
-    fn line_through(&self, n: usize, frame: &Frame, v: u32) -> Option<String> {
+    fn line_through(&self, n: usize, frame: &PieceFrame, v: u32) -> Option<String> {
         let mut lines = self.plans[n].lines.iter().zip(&frame.lines);
         let (planned, _) = lines.find(|(_, chain)| chain.contains(&v))?;
         Some(self.garment.pieces[n].lines[planned.number].name.clone())

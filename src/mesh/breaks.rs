@@ -1,7 +1,7 @@
 //! Breakpoints: places on edges where a particle must be, carried through seams until nothing new appears.
 
 use super::error::{MeshError, SeamFault};
-use super::links::{EdgeTable, Link, SAME_PLACE};
+use super::links::{EdgeTable, LinkedChains, SAME_PLACE};
 use crate::pattern::Garment;
 
 /// Growth of the number of breakpoints at which the search is given up. A breakpoint appears once per edge it is sewn
@@ -14,7 +14,7 @@ pub(super) struct Breaks(Vec<Vec<f64>>);
 
 /// A directed interval between two neighbouring breakpoints of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Run {
+pub(super) struct BreakInterval {
     /// Edge number.
     pub(super) edge: usize,
     /// Interval: from breakpoint `index` to `index + 1`.
@@ -27,14 +27,14 @@ impl Breaks {
     /// Closes `seeds`, the edges' ends and the links' own places under all links.
     pub(super) fn close(
         edges: &EdgeTable,
-        links: &[Link],
+        links: &[LinkedChains],
         seeds: &[(usize, f64)],
         garment: &Garment,
     ) -> Result<Self, MeshError> {
         let mut breaks = Self(edges.lengths.iter().map(|&l| vec![0.0, l]).collect());
         let mut queue: Vec<(usize, f64)> =
             edges.lengths.iter().enumerate().flat_map(|(e, &l)| [(e, 0.0), (e, l)]).collect();
-        for (edge, s) in seeds.iter().copied().chain(links.iter().flat_map(Link::seeds)) {
+        for (edge, s) in seeds.iter().copied().chain(links.iter().flat_map(LinkedChains::seeds)) {
             if breaks.insert(edge, s) {
                 queue.push((edge, s));
             }
@@ -75,11 +75,11 @@ impl Breaks {
     }
 
     /// The intervals a chain walks, in order.
-    pub(super) fn runs(&self, link: &Link, side: usize) -> Vec<Run> {
+    pub(super) fn runs(&self, link: &LinkedChains, side: usize) -> Vec<BreakInterval> {
         let mut runs = Vec::new();
         for stretch in &link.chains[side] {
             let (a, b) = (self.nearest(stretch.edge, stretch.from), self.nearest(stretch.edge, stretch.to));
-            let run = |index, forward| Run { edge: stretch.edge, index, forward };
+            let run = |index, forward| BreakInterval { edge: stretch.edge, index, forward };
             if a <= b {
                 runs.extend((a..b).map(|k| run(k, true)));
             } else {
@@ -103,7 +103,7 @@ impl Breaks {
 
     /// Two breakpoints just far enough apart to be two may meet on the shorter side of a gathered seam, where they
     /// count as one. Removes such doubles until both sides of every link have as many intervals.
-    fn reconcile(&mut self, links: &[Link]) -> Result<(), MeshError> {
+    fn reconcile(&mut self, links: &[LinkedChains]) -> Result<(), MeshError> {
         let mut changed = true;
         while changed {
             changed = false;
@@ -124,9 +124,9 @@ impl Breaks {
     }
 
     /// Removes the breakpoint of the chain, not an edge's end, that ends the shortest interval.
-    fn remove_closest(&mut self, runs: &[Run]) -> bool {
-        let gap = |r: &Run| self.0[r.edge][r.index + 1] - self.0[r.edge][r.index];
-        let mut order: Vec<&Run> = runs.iter().collect();
+    fn remove_closest(&mut self, runs: &[BreakInterval]) -> bool {
+        let gap = |r: &BreakInterval| self.0[r.edge][r.index + 1] - self.0[r.edge][r.index];
+        let mut order: Vec<&BreakInterval> = runs.iter().collect();
         order.sort_by(|x, y| gap(x).total_cmp(&gap(y)));
         for run in order {
             let last = self.0[run.edge].len() - 1;
@@ -151,7 +151,7 @@ impl Breaks {
 }
 
 /// For every edge the (link, side, stretch) that use it.
-fn users(edges: usize, links: &[Link]) -> Vec<Vec<(usize, usize, usize)>> {
+fn users(edges: usize, links: &[LinkedChains]) -> Vec<Vec<(usize, usize, usize)>> {
     let mut users = vec![Vec::new(); edges];
     for (l, link) in links.iter().enumerate() {
         for (side, chain) in link.chains.iter().enumerate() {

@@ -4,36 +4,26 @@ use rayon::prelude::*;
 
 use super::chords::SelfSeam;
 use super::error::MeshError;
-use super::frame::Frame;
+use super::fill::Fill;
+use super::frame::PieceFrame;
 use super::grid::Core;
 use super::improve::Improver;
 use super::lattice::Lattice;
-use super::layout::Layout;
-use super::links::Link;
+use super::layout::MeshLayout;
+use super::links::LinkedChains;
 use super::patch::Patch;
-use super::{ClothMesh, MeshOptions, Method, coons, strip};
-use crate::geometry::Vec2;
+use super::{ClothMesh, MeshMethod, MeshOptions, coons, strip};
 use crate::pattern::Garment;
 
 /// Rounds of relaxing, removing chords and repairing. Each of these steps disturbs the result of the others.
 const ROUNDS: usize = 2;
-
-/// A piece's points and triangles.
-pub(super) struct Fill {
-    /// Rim particles first, as in the frame.
-    pub(super) points: Vec<Vec2>,
-    /// Positively oriented.
-    pub(super) triangles: Vec<[u32; 3]>,
-    /// Particles of every planned line.
-    pub(super) lines: Vec<Vec<u32>>,
-}
 
 /// Meshes every piece of `garment` with springs of about `spacing` metres. See [`build_with`].
 ///
 /// # Errors
 /// As [`build_with`].
 pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
-    build_with(garment, &MeshOptions { spacing, method: Method::Auto })
+    build_with(garment, &MeshOptions { spacing, method: MeshMethod::Auto })
 }
 
 /// Meshes every piece of `garment`.
@@ -54,7 +44,7 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 /// [`MeshError`] when the spacing is no positive length or does not suit the pieces, or when an outline, a line or a
 /// seam contradicts itself.
 pub fn build_with(garment: &Garment, options: &MeshOptions) -> Result<ClothMesh, MeshError> {
-    let layout = Layout::new(garment, *options)?;
+    let layout = MeshLayout::new(garment, *options)?;
     let numbers: Vec<usize> = (0..garment.pieces.len()).collect();
     let fills: Vec<_> = numbers.par_iter().map(|&n| layout.fill(n)).collect();
     // Of several errors the first in the garment's order, not the first in time.
@@ -62,11 +52,11 @@ pub fn build_with(garment: &Garment, options: &MeshOptions) -> Result<ClothMesh,
     Ok(layout.assemble(fills))
 }
 
-impl Layout<'_> {
+impl MeshLayout<'_> {
     /// Meshes piece `n`.
-    fn fill(&self, n: usize) -> Result<(Frame, Fill), MeshError> {
+    fn fill(&self, n: usize) -> Result<(PieceFrame, Fill), MeshError> {
         let piece = &self.garment.pieces[n];
-        let mut frame = Frame::of_rim(piece, n, &self.edges, &self.breaks, &self.sampling)?;
+        let mut frame = PieceFrame::of_rim(piece, n, &self.edges, &self.breaks, &self.sampling)?;
         if coons::wanted(piece, self.options.method)
             && let Some(fill) =
                 coons::fill(&frame, &self.plans[n], self.options.method, self.fineness[n].narrow.is_some())
@@ -81,7 +71,7 @@ impl Layout<'_> {
     }
 
     /// Lays a lattice into a frame, triangulates what is left and repairs it.
-    fn fill_with_grid(&self, n: usize, frame: &Frame) -> Result<Fill, MeshError> {
+    fn fill_with_grid(&self, n: usize, frame: &PieceFrame) -> Result<Fill, MeshError> {
         let spacing = self.fineness[n].spacing;
         let lattice = Lattice::fit(frame, self.garment.pieces[n].warp, spacing);
         let core = Core::lay(frame, &lattice, spacing);
@@ -101,9 +91,9 @@ impl Layout<'_> {
     }
 
     /// Seams with both sides on piece `n`.
-    fn self_seams(&self, n: usize, frame: &Frame) -> Vec<SelfSeam> {
+    fn self_seams(&self, n: usize, frame: &PieceFrame) -> Vec<SelfSeam> {
         let first = self.first_edge(n);
-        let side = |link: &Link, side: usize| {
+        let side = |link: &LinkedChains, side: usize| {
             let own = self.chain(link, side).into_iter().filter(|&(edge, _)| self.edges.ids[edge].piece == n);
             let mut on: Vec<u32> = own.map(|(edge, k)| frame.edges[edge - first][k]).collect();
             on.sort_unstable();

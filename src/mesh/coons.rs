@@ -1,16 +1,17 @@
 //! Structured meshes of four-sided pieces: transfinite (Coons) interpolation between opposite sides.
 
-use super::frame::Frame;
+use super::MeshMethod;
+use super::fill::Fill;
+use super::frame::PieceFrame;
 use super::lines::LinePlan;
-use super::links::{EdgeTable, Link, Stretch};
+use super::links::{ChainStretch, EdgeTable, LinkedChains};
 use super::shape::{quality, quality_of_degrees};
-use super::{Fill, Method};
 use crate::geometry::{Vec2, shares_along};
 use crate::pattern::{EdgeId, Piece};
 
-/// Ratio of length to width from which [`Method::Auto`] treats a four-sided piece as a band.
+/// Ratio of length to width from which [`MeshMethod::Auto`] treats a four-sided piece as a band.
 const BAND: f64 = 5.0;
-/// Least angle of a structured mesh with [`Method::Auto`], degrees. Below it the grid does better.
+/// Least angle of a structured mesh with [`MeshMethod::Auto`], degrees. Below it the grid does better.
 const LEAST_ANGLE: f64 = 25.0;
 /// Least angle of a structured mesh that was asked for, or of a piece narrower than the spacing, degrees. A grid would
 /// have no inner particle there either.
@@ -19,11 +20,11 @@ const LEAST_ANGLE_ASKED: f64 = 10.0;
 const ON_LINE: f64 = 1e-5;
 
 /// Whether a piece is to be meshed in structured columns, if its sides can be sampled alike.
-pub(super) fn wanted(piece: &Piece, method: Method) -> bool {
+pub(super) fn wanted(piece: &Piece, method: MeshMethod) -> bool {
     match method {
-        Method::Auto => ends_of_band(piece).is_some(),
-        Method::Grid => false,
-        Method::Coons => piece.loops.len() == 1 && piece.loops[0].len() == 4,
+        MeshMethod::Auto => ends_of_band(piece).is_some(),
+        MeshMethod::Grid => false,
+        MeshMethod::Coons => piece.loops.len() == 1 && piece.loops[0].len() == 4,
     }
 }
 
@@ -37,20 +38,21 @@ pub(super) fn ends_of_band(piece: &Piece) -> Option<[usize; 2]> {
 }
 
 /// Links that sample the opposite sides of a four-sided piece alike.
-pub(super) fn links(piece: &Piece, number: usize, edges: &EdgeTable) -> Vec<Link> {
+pub(super) fn links(piece: &Piece, number: usize, edges: &EdgeTable) -> Vec<LinkedChains> {
     let stretch = |index: usize, forward: bool| {
         let edge = edges.number(EdgeId { piece: number, ring: 0, index })?;
         let (from, to) = if forward { (0.0, edges.lengths[edge]) } else { (edges.lengths[edge], 0.0) };
-        Some(Stretch { edge, from, to, start: 0.0 })
+        Some(ChainStretch { edge, from, to, start: 0.0 })
     };
-    let link = |a: usize, b: usize| Some(Link::proportional(&piece.name, stretch(a, true)?, stretch(b, false)?));
+    let link =
+        |a: usize, b: usize| Some(LinkedChains::proportional(&piece.name, stretch(a, true)?, stretch(b, false)?));
     [link(0, 2), link(1, 3)].into_iter().flatten().collect()
 }
 
 /// Meshes a four-sided frame in rows and columns, or `None` when opposite sides differ in number, a line does not
 /// follow a row or column, or the result would be badly shaped.
-pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method, is_narrow: bool) -> Option<Fill> {
-    let sheet = Sheet::new(frame)?;
+pub(super) fn fill(frame: &PieceFrame, plan: &LinePlan, method: MeshMethod, is_narrow: bool) -> Option<Fill> {
+    let sheet = CoonsGrid::new(frame)?;
     let points = sheet.points(frame)?;
     let lines = plan.lines.iter().map(|line| {
         let chain =
@@ -62,20 +64,20 @@ pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method, is_narrow: bo
     let triangles = sheet.triangles();
     let corners = |t: &[u32; 3]| t.map(|v| points[v as usize]);
     let worst = triangles.iter().map(corners).map(|[a, b, c]| quality(a, b, c)).fold(1.0, f64::min);
-    let least = if method == Method::Coons || is_narrow { LEAST_ANGLE_ASKED } else { LEAST_ANGLE };
+    let least = if method == MeshMethod::Coons || is_narrow { LEAST_ANGLE_ASKED } else { LEAST_ANGLE };
     (worst >= quality_of_degrees(least)).then_some(Fill { points, triangles, lines })
 }
 
 /// Vertex numbers in rows and columns. The outline runs along row 0, the last column, the last row and column 0.
-struct Sheet {
+struct CoonsGrid {
     columns: usize,
     rows: usize,
     vertex: Vec<u32>,
     total: usize,
 }
 
-impl Sheet {
-    fn new(frame: &Frame) -> Option<Self> {
+impl CoonsGrid {
+    fn new(frame: &PieceFrame) -> Option<Self> {
         let [bottom, right, top, left] = frame.edges.as_slice() else { return None };
         if bottom.len() != top.len() || right.len() != left.len() {
             return None;
@@ -113,7 +115,7 @@ impl Sheet {
     }
 
     /// Coons' interpolation of the inner vertices between the rim's. `None` where a side has no length.
-    fn points(&self, frame: &Frame) -> Option<Vec<Vec2>> {
+    fn points(&self, frame: &PieceFrame) -> Option<Vec<Vec2>> {
         let rim = |v: u32| frame.points[v as usize];
         let (last_i, last_j) = (self.columns - 1, self.rows - 1);
         let across = shares(&self.row(0), &self.row(last_j), frame)?;
@@ -170,7 +172,7 @@ impl Sheet {
 }
 
 /// Mean share of the way along two opposite sides at each of their particles. `None` where one has no length.
-fn shares(a: &[u32], b: &[u32], frame: &Frame) -> Option<Vec<f64>> {
+fn shares(a: &[u32], b: &[u32], frame: &PieceFrame) -> Option<Vec<f64>> {
     let way = |side: &[u32]| shares_along(side.iter().map(|&v| frame.points[v as usize]));
     Some(way(a)?.into_iter().zip(way(b)?).map(|(x, y)| 0.5 * (x + y)).collect())
 }

@@ -1,6 +1,6 @@
 //! The course of a line over edges, cloth, and the open mouth of a dart or a hole.
 
-use super::lines::{Chords, REACHES};
+use super::crossings::{Chords, REACHES};
 use crate::geometry::Path;
 use crate::pattern::{Along, Piece, Region, along};
 
@@ -21,7 +21,7 @@ pub(super) enum Course {
 }
 
 /// The ground that the lines of a piece run over.
-pub(super) struct Ground<'a> {
+pub(super) struct PieceGround<'a> {
     piece: &'a Piece,
     cloth: Region<'a>,
     /// Chords of all its edges.
@@ -38,7 +38,7 @@ impl Course {
     }
 }
 
-impl<'a> Ground<'a> {
+impl<'a> PieceGround<'a> {
     pub(super) fn new(piece: &'a Piece) -> Self {
         let rim = piece.loops.iter().flatten().map(|edge| Chords::new(&edge.path)).collect();
         Self { piece, cloth: Region::new(&piece.loops), rim }

@@ -14,7 +14,7 @@ const CLOSED: f64 = 1e-6;
 
 /// Particles and springs of a piece that no later step may move, part or remove.
 #[derive(Default)]
-pub(super) struct Frame {
+pub(super) struct PieceFrame {
     /// Positions. Rim first (outline, then holes), then lines.
     pub(super) points: Vec<Vec2>,
     /// Number of rim particles.
@@ -42,7 +42,7 @@ pub(super) struct Straight {
     pub(super) springs: usize,
 }
 
-impl Frame {
+impl PieceFrame {
     /// Samples the rim of `piece`, number `number` in the garment.
     pub(super) fn of_rim(
         piece: &Piece,
@@ -79,7 +79,7 @@ impl Frame {
     }
 
     /// Adds the particles of the lines. `rim_place` turns an edge number and arc length into places in
-    /// [`Frame::edges`].
+    /// [`PieceFrame::edges`].
     pub(super) fn add_lines(&mut self, plan: &LinePlan, rim_place: impl Fn(usize, f64) -> (usize, usize)) {
         let knots: Vec<u32> = plan.knots.iter().map(|&p| self.add(p)).collect();
         for line in &plan.lines {

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::frame::Frame;
+use super::frame::PieceFrame;
 use super::lattice::Lattice;
 use super::spans::Spans;
 use crate::geometry::{Vec2, box_of, distance_to_segment, sorted_pair};
@@ -35,7 +35,7 @@ pub(super) struct Core {
 
 impl Core {
     /// Lays the core into a frame.
-    pub(super) fn lay(frame: &Frame, lattice: &Lattice, spacing: f64) -> Self {
+    pub(super) fn lay(frame: &PieceFrame, lattice: &Lattice, spacing: f64) -> Self {
         let mut raster = Raster::new(frame, lattice);
         raster.clear_near(frame, lattice, spacing);
         let mut points = frame.points.clone();
@@ -63,7 +63,7 @@ struct Raster {
 }
 
 impl Raster {
-    fn new(frame: &Frame, lattice: &Lattice) -> Self {
+    fn new(frame: &PieceFrame, lattice: &Lattice) -> Self {
         let cells: Vec<Vec2> = frame.points.iter().map(|&p| lattice.cells(p)).collect();
         let [min, max] = box_of(cells.iter().copied());
         let low = [min.x.floor() as i64 - 1, min.y.floor() as i64 - 1];
@@ -97,7 +97,7 @@ impl Raster {
     }
 
     /// Drops lattice points near the frame.
-    fn clear_near(&mut self, frame: &Frame, lattice: &Lattice, spacing: f64) {
+    fn clear_near(&mut self, frame: &PieceFrame, lattice: &Lattice, spacing: f64) {
         let clearance = CLEARANCE * spacing;
         let scale = Vec2::new(lattice.step[0], lattice.step[1]);
         for [a, b] in frame.springs() {
@@ -127,7 +127,7 @@ impl Raster {
     }
 
     /// Replaces lattice points by frame particles that lie on them.
-    fn seat_frame(&mut self, frame: &Frame, spacing: f64) {
+    fn seat_frame(&mut self, frame: &PieceFrame, spacing: f64) {
         let mut shortest = vec![f64::INFINITY; frame.points.len()];
         for [a, b] in frame.springs() {
             let length = (frame.points[a as usize] - frame.points[b as usize]).norm();
@@ -148,7 +148,7 @@ impl Raster {
     }
 
     /// Marks the cells that a frame spring runs through.
-    fn block_crossed(&mut self, frame: &Frame) {
+    fn block_crossed(&mut self, frame: &PieceFrame) {
         for [a, b] in frame.springs() {
             let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
             for (i, j) in self.around(p, q, REACH) {
@@ -164,7 +164,7 @@ impl Raster {
     }
 
     /// Cells with all four corners, at least one of them off the frame, and no frame spring inside.
-    fn cells(&self, frame: &Frame, points: Vec<Vec2>) -> Core {
+    fn cells(&self, frame: &PieceFrame, points: Vec<Vec2>) -> Core {
         let fixed = frame.points.len() as u32;
         let mut springs: Vec<[u32; 2]> = frame.springs().map(sorted_pair).collect();
         springs.sort_unstable();

@@ -76,7 +76,7 @@ impl Improver<'_> {
     }
 
     /// Turning side `k` of `t`, unless it must stay or the new spring would join two rim particles.
-    pub(super) fn turned(&self, t: u32, k: usize) -> Option<Turn> {
+    pub(super) fn turned(&self, t: u32, k: usize) -> Option<SpringTurn> {
         let other = self.patch.partner(t, k)?;
         let v = self.patch.corners(t);
         let (a, b, c) = (v[k], v[(k + 1) % 3], v[(k + 2) % 3]);
@@ -87,7 +87,7 @@ impl Improver<'_> {
         let new = [[a, b, d], [a, d, c]];
         let after = new.iter().map(|tri| self.quality_of(tri)).fold(1.0, f64::min);
         let before = self.patch.quality(t).min(self.patch.quality(other));
-        (after > 0.0).then(|| Turn { other, new, after, gain: after / before.max(1e-12) })
+        (after > 0.0).then(|| SpringTurn { other, new, after, gain: after / before.max(1e-12) })
     }
 
     fn quality_of(&self, tri: &[u32; 3]) -> f64 {
@@ -257,7 +257,7 @@ const COMPASS: [[f64; 2]; 8] = {
 };
 
 /// A spring turned within its two triangles.
-pub(super) struct Turn {
+pub(super) struct SpringTurn {
     /// The triangle across the spring.
     pub(super) other: u32,
     /// The two triangles that replace the old ones.

@@ -1,6 +1,6 @@
 //! The grain-aligned lattice of a piece: where its rows and columns run.
 
-use super::frame::{Frame, Straight};
+use super::frame::{PieceFrame, Straight};
 use crate::geometry::{Vec2, range_of};
 
 /// Largest deviation of a straight stretch from an axis, in spacings, at which it counts as running along the axis.
@@ -25,7 +25,7 @@ impl Lattice {
     /// Fits a lattice to a piece: it takes the step and place of the longest straight, evenly sampled stretch along
     /// each axis, so that its rows end on the rim's own particles. Else it puts a row on the longest stretch across
     /// the axis. Else a row through the middle of the piece, which makes it symmetric if the piece is.
-    pub(super) fn fit(frame: &Frame, warp: Vec2, spacing: f64) -> Self {
+    pub(super) fn fit(frame: &PieceFrame, warp: Vec2, spacing: f64) -> Self {
         let axes = [Vec2::new(warp.y, -warp.x), warp];
         let fits = axes.map(|axis| fit_axis(frame, axis, spacing));
         Self { origin: axes[0] * fits[0].0 + axes[1] * fits[1].0, axes, step: [fits[0].1, fits[1].1] }
@@ -44,7 +44,7 @@ impl Lattice {
 }
 
 /// Offset and step along `axis`.
-fn fit_axis(frame: &Frame, axis: Vec2, spacing: f64) -> (f64, f64) {
+fn fit_axis(frame: &PieceFrame, axis: Vec2, spacing: f64) -> (f64, f64) {
     let along = |s: &&Straight| {
         let d = s.to - s.from;
         let step = d.norm() / s.springs as f64;
@@ -76,6 +76,6 @@ fn longest<'a>(stretches: impl Iterator<Item = &'a Straight>) -> Option<&'a Stra
     })
 }
 
-fn extent(frame: &Frame, axis: Vec2) -> [f64; 2] {
+fn extent(frame: &PieceFrame, axis: Vec2) -> [f64; 2] {
     range_of(frame.points[..frame.rim].iter().map(|p| p.dot(&axis)))
 }

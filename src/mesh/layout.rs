@@ -4,9 +4,9 @@ use super::breaks::Breaks;
 use super::error::MeshError;
 use super::limits::{self, Fineness};
 use super::lines::{LinePlan, RimLine};
-use super::links::{EdgeTable, Link};
+use super::links::{EdgeTable, LinkedChains};
 use super::sampling::{Sampling, Wish};
-use super::{MeshOptions, Method, coons};
+use super::{MeshMethod, MeshOptions, coons};
 use crate::pattern::{EdgeId, Garment};
 
 /// Turn between two segments of an edge that puts a particle at the kink, radians (15°). Cutting the corner would
@@ -19,7 +19,7 @@ const BESIDE: f64 = 1e-7;
 const ACROSS_BAND: usize = 2;
 
 /// Decisions about the whole garment, made before its pieces are filled.
-pub(super) struct Layout<'g> {
+pub(super) struct MeshLayout<'g> {
     /// The garment.
     pub(super) garment: &'g Garment,
     /// Its edges in one list.
@@ -27,7 +27,7 @@ pub(super) struct Layout<'g> {
     /// Lines of every piece.
     pub(super) plans: Vec<LinePlan>,
     /// Seams first, in the garment's order.
-    pub(super) links: Vec<Link>,
+    pub(super) links: Vec<LinkedChains>,
     /// Places on edges that need a particle.
     pub(super) breaks: Breaks,
     /// All particles of the edges.
@@ -38,15 +38,15 @@ pub(super) struct Layout<'g> {
     pub(super) fineness: Vec<Fineness>,
 }
 
-impl<'g> Layout<'g> {
+impl<'g> MeshLayout<'g> {
     /// Samples all rims together.
     pub(super) fn new(garment: &'g Garment, options: MeshOptions) -> Result<Self, MeshError> {
         let fineness = limits::fineness(garment, options.spacing)?;
         let edges = EdgeTable::new(garment);
         let plans: Vec<_> =
             fineness.iter().enumerate().map(|(n, own)| LinePlan::new(garment, n, &edges, own.spacing)).collect();
-        let mut links: Vec<Link> =
-            garment.seams.iter().map(|s| Link::of_seam(s, garment, &edges)).collect::<Result<_, _>>()?;
+        let mut links: Vec<LinkedChains> =
+            garment.seams.iter().map(|s| LinkedChains::of_seam(s, garment, &edges)).collect::<Result<_, _>>()?;
         let seams = links.len();
         for (n, piece) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, options.method)) {
             links.extend(coons::links(piece, n, &edges));
@@ -54,7 +54,7 @@ impl<'g> Layout<'g> {
         let wishes = wishes_of_edges(garment, &edges, options.method, &fineness);
         let mut seeds: Vec<_> = plans.iter().flat_map(LinePlan::rim_seeds).collect();
         seeds.extend(kinks(garment, &edges));
-        let sample = |links: &[Link]| {
+        let sample = |links: &[LinkedChains]| {
             let breaks = Breaks::close(&edges, links, &seeds, garment)?;
             let sampling = Sampling::new(&edges, links, &breaks, &wishes)?;
             Ok((breaks, sampling))
@@ -87,20 +87,20 @@ impl<'g> Layout<'g> {
     }
 
     /// The links that are seams.
-    pub(super) fn seam_links(&self) -> &[Link] {
+    pub(super) fn seam_links(&self) -> &[LinkedChains] {
         &self.links[..self.garment.seams.len()]
     }
 
     /// Particles of one side of a link, in its direction, as (edge number, position along the edge). Doubled where two
     /// runs meet.
-    pub(super) fn chain(&self, link: &Link, side: usize) -> Vec<(usize, usize)> {
+    pub(super) fn chain(&self, link: &LinkedChains, side: usize) -> Vec<(usize, usize)> {
         let runs = self.breaks.runs(link, side);
         runs.iter().flat_map(|r| self.sampling.particles_of_run(r).into_iter().map(|k| (r.edge, k))).collect()
     }
 }
 
 /// Sampling of every edge: that of its piece, with [`ACROSS_BAND`] springs across a band.
-fn wishes_of_edges(garment: &Garment, edges: &EdgeTable, method: Method, fineness: &[Fineness]) -> Vec<Wish> {
+fn wishes_of_edges(garment: &Garment, edges: &EdgeTable, method: MeshMethod, fineness: &[Fineness]) -> Vec<Wish> {
     let of_piece = |id: &EdgeId| Wish { least: 1, spacing: fineness[id.piece].spacing };
     let mut wishes: Vec<Wish> = edges.ids.iter().map(of_piece).collect();
     let bands =

@@ -3,7 +3,7 @@
 //! A seam is a link. So is the pair of opposite sides of a band that is meshed in straight columns.
 
 use super::error::{MeshError, SeamFault};
-use crate::pattern::{EdgeId, Garment, Seam, Span};
+use crate::pattern::{EdgeId, Garment, Seam, Span, edge_name};
 
 /// Distance within which places on an edge are one place, metres: a hundredth of a millimetre is far below anything
 /// that can be cut or sewn, and far above the accuracy of arc lengths.
@@ -46,7 +46,7 @@ impl EdgeTable {
 
 /// A stretch of an edge within a chain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch {
+pub(super) struct ChainStretch {
     /// Edge number.
     pub(super) edge: usize,
     /// Arc length on the edge where the walk begins.
@@ -57,7 +57,7 @@ pub(super) struct Stretch {
     pub(super) start: f64,
 }
 
-impl Stretch {
+impl ChainStretch {
     fn length(&self) -> f64 {
         (self.to - self.from).abs()
     }
@@ -79,18 +79,18 @@ impl Stretch {
 }
 
 /// Two chains that get particles at matching places.
-pub(super) struct Link {
+pub(super) struct LinkedChains {
     /// The seam's name. For a band, the piece's.
     pub(super) name: String,
     /// The two chains.
-    pub(super) chains: [Vec<Stretch>; 2],
+    pub(super) chains: [Vec<ChainStretch>; 2],
     /// Matched chain positions, rising, ends included.
     marks: Vec<[f64; 2]>,
 }
 
-impl Link {
+impl LinkedChains {
     /// A link in plain proportion, for spans that are known to be good.
-    pub(super) fn proportional(name: &str, a: Stretch, b: Stretch) -> Self {
+    pub(super) fn proportional(name: &str, a: ChainStretch, b: ChainStretch) -> Self {
         let marks = vec![[0.0, 0.0], [a.length(), b.length()]];
         Self { name: name.to_owned(), chains: [vec![a], vec![b]], marks }
     }
@@ -137,7 +137,7 @@ impl Link {
     }
 }
 
-fn chain(spans: &[Span], garment: &Garment, edges: &EdgeTable) -> Result<Vec<Stretch>, SeamFault> {
+fn chain(spans: &[Span], garment: &Garment, edges: &EdgeTable) -> Result<Vec<ChainStretch>, SeamFault> {
     let mut start = 0.0;
     let mut out = Vec::with_capacity(spans.len());
     for span in spans {
@@ -147,10 +147,10 @@ fn chain(spans: &[Span], garment: &Garment, edges: &EdgeTable) -> Result<Vec<Str
         // Written so that a NaN fails too.
         let inside = |s: f64| s >= -SAME_PLACE && s <= length + SAME_PLACE;
         if !(inside(span.from) && inside(span.to)) {
-            let name = format!("{}.{}", garment.pieces[piece].name, garment.pieces[piece].loops[ring][index].name);
-            return Err(SeamFault::PastTheEnd { edge: name, from: span.from, to: span.to, length });
+            let edge = edge_name(&garment.pieces, span.edge);
+            return Err(SeamFault::PastTheEnd { edge, from: span.from, to: span.to, length });
         }
-        out.push(Stretch { edge, from: span.from.clamp(0.0, length), to: span.to.clamp(0.0, length), start });
+        out.push(ChainStretch { edge, from: span.from.clamp(0.0, length), to: span.to.clamp(0.0, length), start });
         start += span.length();
     }
     Ok(out)

@@ -8,9 +8,11 @@ mod check;
 mod chords;
 mod coons;
 mod course;
+mod crossings;
 mod earlier;
 mod elastic;
 mod error;
+mod fill;
 mod frame;
 mod grid;
 mod improve;
@@ -37,14 +39,12 @@ pub use error::{MeshError, SeamFault};
 pub use springs::SpringClass;
 pub use transfer::Transfer;
 
-use build::Fill;
-
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, LineKind};
 
 /// How pieces are meshed inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
+pub enum MeshMethod {
     /// Long narrow four-sided pieces (bands) in straight columns from rim to rim, all others as a grid.
     #[default]
     Auto,
@@ -61,7 +61,7 @@ pub struct MeshOptions {
     /// Length of the springs along warp and weft, metres.
     pub spacing: f64,
     /// How pieces are meshed inside.
-    pub method: Method,
+    pub method: MeshMethod,
 }
 
 /// All pieces of a garment, meshed. Particles of different pieces are different particles, also along seams.

@@ -29,11 +29,11 @@ pub(super) struct Patch {
     triangles: Vec<Tri>,
     /// A triangle at every vertex.
     at: Vec<u32>,
-    trial: Option<Trial>,
+    trial: Option<PatchState>,
 }
 
 /// State to restore if a change turns out for the worse.
-struct Trial {
+struct PatchState {
     undo: Vec<Undo>,
     /// Triangles that have been saved before their first change.
     touched: Vec<u32>,
@@ -192,7 +192,7 @@ impl Patch {
     /// Puts the triangles `new` in the place of `old`. Both cover the same polygon. Vertices of `old` that `new`
     /// does not use are gone.
     pub(super) fn replace(&mut self, old: &[u32], new: &[[u32; 3]]) {
-        let sides: Vec<Side> = old.iter().flat_map(|&t| self.sides(t)).collect();
+        let sides: Vec<DirectedSide> = old.iter().flat_map(|&t| self.sides(t)).collect();
         let slots: Vec<u32> = (0..new.len())
             .map(|k| old.get(k).copied().unwrap_or((self.triangles.len() + k - old.len()) as u32))
             .collect();
@@ -225,7 +225,7 @@ impl Patch {
 
     /// Begins a change that may be taken back.
     pub(super) fn begin(&mut self) {
-        self.trial = Some(Trial {
+        self.trial = Some(PatchState {
             undo: Vec::new(),
             touched: Vec::new(),
             before: Score::PERFECT,
@@ -271,9 +271,9 @@ impl Patch {
         (points, triangles)
     }
 
-    fn sides(&self, t: u32) -> [Side; 3] {
+    fn sides(&self, t: u32) -> [DirectedSide; 3] {
         let tri = &self.triangles[t as usize];
-        [0, 1, 2].map(|k| Side {
+        [0, 1, 2].map(|k| DirectedSide {
             ends: [tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]],
             beside: tri.beside[k],
             locked: tri.locked[k],
@@ -330,7 +330,7 @@ impl Patch {
 }
 
 /// A directed side of a triangle that is being replaced.
-struct Side {
+struct DirectedSide {
     ends: [u32; 2],
     beside: u32,
     locked: bool,

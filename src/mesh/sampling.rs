@@ -1,8 +1,8 @@
 //! Number and places of particles on every interval of the rim.
 
-use super::breaks::{Breaks, Run};
+use super::breaks::{BreakInterval, Breaks};
 use super::error::{MeshError, SeamFault};
-use super::links::{EdgeTable, Link};
+use super::links::{EdgeTable, LinkedChains};
 use crate::geometry::DisjointSets;
 
 /// Largest length of a rim spring, in spacings. Both sides of a gathered seam get the count of their mean length,
@@ -29,7 +29,12 @@ pub(super) struct Sampling {
 impl Sampling {
     /// Chooses counts per group of linked intervals from the wishes of their edges, and spreads particles evenly
     /// between breakpoints. The finest wish of a group decides.
-    pub(super) fn new(edges: &EdgeTable, links: &[Link], breaks: &Breaks, wishes: &[Wish]) -> Result<Self, MeshError> {
+    pub(super) fn new(
+        edges: &EdgeTable,
+        links: &[LinkedChains],
+        breaks: &Breaks,
+        wishes: &[Wish],
+    ) -> Result<Self, MeshError> {
         let mut groups = Groups::new(edges.ids.len(), breaks);
         for link in links {
             let runs = [breaks.runs(link, 0), breaks.runs(link, 1)];
@@ -57,7 +62,7 @@ impl Sampling {
     }
 
     /// Positions in the edge's particles of a run, in the run's direction, both ends included.
-    pub(super) fn particles_of_run(&self, run: &Run) -> Vec<usize> {
+    pub(super) fn particles_of_run(&self, run: &BreakInterval) -> Vec<usize> {
         let first = self.particle_of_break(run.edge, run.index);
         let all = first..=first + self.counts[run.edge][run.index];
         if run.forward { all.collect() } else { all.rev().collect() }
@@ -100,7 +105,7 @@ impl Groups {
         self.sets.root((self.first[edge] + interval) as u32) as usize
     }
 
-    fn join(&mut self, a: &Run, b: &Run) {
+    fn join(&mut self, a: &BreakInterval, b: &BreakInterval) {
         let [a, b] = [a, b].map(|run| (self.first[run.edge] + run.index) as u32);
         self.sets.join(a, b);
     }

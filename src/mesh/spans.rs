@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 /// Columns of one row, and the number of its first point.
-struct Span {
+struct RowColumns {
     first: usize,
     end: usize,
     number: usize,
@@ -12,7 +12,7 @@ struct Span {
 
 /// Stretches of lattice rows, their points numbered row by row.
 pub(super) struct Spans {
-    spans: Vec<Span>,
+    spans: Vec<RowColumns>,
     /// Index of the first span of every row, and the number of spans at the end.
     rows: Vec<usize>,
     points: usize,
@@ -32,7 +32,7 @@ impl Spans {
                 while let Some((_, more)) = rest.next_if(|(own, next)| *own == row && *next.start() <= end) {
                     end = end.max(more.end() + 1);
                 }
-                all.spans.push(Span { first, end, number: all.points });
+                all.spans.push(RowColumns { first, end, number: all.points });
                 all.points += end - first;
             }
         }

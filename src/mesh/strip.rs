@@ -2,7 +2,7 @@
 
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::frame::Frame;
+use super::frame::PieceFrame;
 use super::grid::Core;
 use crate::geometry::Vec2;
 
@@ -19,7 +19,7 @@ pub(super) enum StripError {
 }
 
 /// Triangles of the strip, positively oriented.
-pub(super) fn triangulate(frame: &Frame, core: &Core) -> Result<Vec<[u32; 3]>, StripError> {
+pub(super) fn triangulate(frame: &PieceFrame, core: &Core) -> Result<Vec<[u32; 3]>, StripError> {
     let walls = walls(frame, core);
     // Cells all over, as in a rectangle along the grain.
     let strip = if walls.is_empty() { Vec::new() } else { between(frame, core, &walls)? };
@@ -32,7 +32,7 @@ pub(super) fn triangulate(frame: &Frame, core: &Core) -> Result<Vec<[u32; 3]>, S
 }
 
 /// Triangles between the walls.
-fn between(frame: &Frame, core: &Core, walls: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, StripError> {
+fn between(frame: &PieceFrame, core: &Core, walls: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, StripError> {
     let vertices = members(core, walls);
     let is_side = |s: &[u32; 2]| core.sides.binary_search(s).is_ok();
     let in_strip = |s: &&[u32; 2]| !is_side(s) && !is_side(&[s[1], s[0]]);
@@ -42,7 +42,7 @@ fn between(frame: &Frame, core: &Core, walls: &[[u32; 2]]) -> Result<Vec<[u32; 3
 
 /// Directed springs with the strip on their positive side: rim springs and reversed sides of the core, but not where
 /// a cell lies directly on the rim. Sorted.
-fn walls(frame: &Frame, core: &Core) -> Vec<[u32; 2]> {
+fn walls(frame: &PieceFrame, core: &Core) -> Vec<[u32; 2]> {
     let is_side = |s: &[u32; 2]| core.sides.binary_search(s).is_ok();
     let mut rim = frame.rim_springs.clone();
     rim.sort_unstable();

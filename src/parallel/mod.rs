@@ -123,8 +123,8 @@ pub fn sum(count: usize, chunk: usize, item: impl Fn(usize) -> f64 + Sync) -> f6
     chunks(count, chunk, part).into_iter().sum()
 }
 
-/// The largest of `item(0)`, `item(1)` … up to `count`, and of 0, in chunks of `chunk` items. What is no number counts
-/// as 0.
+/// The largest of `item(0)`, `item(1)` … up to `count`, and of 0, in chunks of `chunk` items. An item that is no number
+/// counts as 0.
 pub fn largest(count: usize, chunk: usize, item: impl Fn(usize) -> f64 + Sync) -> f64 {
     let part = |k: usize| (k * chunk..((k + 1) * chunk).min(count)).map(&item).fold(0.0, f64::max);
     chunks(count, chunk, part).into_iter().fold(0.0, f64::max)

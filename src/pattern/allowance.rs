@@ -2,8 +2,9 @@
 
 use super::WIDEST_ALLOWANCE;
 use super::diagnostic::{Findings, Located, Spot};
-use super::file::{AllowanceFile, AllowanceWidth, GarmentFile, PieceFile, Quantity};
+use super::file::{AllowanceFile, AllowanceWidth, GarmentFile, PieceFile};
 use super::problem::Problem;
+use super::value::Quantity;
 
 /// Finds those of the garment, its pieces, their edges and its seams that are too wide.
 pub(super) fn check(file: &GarmentFile, findings: &mut Findings) {

@@ -1,7 +1,7 @@
 //! Alterations of a garment file, as they are written.
 
 use super::diagnostic::Located;
-use super::file::Quantity;
+use super::value::Quantity;
 
 /// A position along an edge, and what happens there.
 pub type StationFile<T> = (Located<Quantity>, Located<T>);

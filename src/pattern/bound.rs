@@ -3,17 +3,18 @@
 use std::path::Path;
 
 use super::diagnostic::{Findings, Located};
-use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
+use super::file::{GarmentFile, TestEntry, TestFile};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::piece_of;
+use super::value::{Quantity, Unit};
 use super::{Bound, GIRTHS, Garment, OF_TRUNK, SIDES, Test, openings};
 use crate::input::nearest;
 
 /// The bounds of the file. `openings` is checked at once, because it needs no simulation. A garment that is not `sound`
 /// lacks pieces, seams and closures, so that names are looked up in the file.
 pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, findings: &mut Findings) -> Vec<Test> {
-    let reader = Reader { file, garment, sound };
+    let reader = BoundReader { file, garment, sound };
     let test = |entry: &Located<TestEntry>| {
         let fabric = entry.value.fabric.as_ref().map(|f| reader.fabric(f, findings));
         Some(Test { bound: reader.bound(entry, findings)?, fabric, of: None })
@@ -21,13 +22,13 @@ pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, finding
     file.tests.iter().filter_map(test).collect()
 }
 
-struct Reader<'a> {
+struct BoundReader<'a> {
     file: &'a GarmentFile,
     garment: &'a Garment,
     sound: bool,
 }
 
-impl Reader<'_> {
+impl BoundReader<'_> {
     fn bound(&self, test: &Located<TestEntry>, findings: &mut Findings) -> Option<Bound> {
         let value = |q: &Located<Quantity>| q.value.value(self.file.unit());
         Some(match &test.value.test {

@@ -5,13 +5,13 @@
 
 use super::diagnostic::Findings;
 use super::draft::shown;
-use super::file::Unit;
+use super::edge_name::names_of;
 use super::problem::{ChainDoubt, Problem};
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::{marks_between, tolerance};
-use super::select::{Candidate, Run, Source, is_mirror, turned};
-use super::tube::{Ends, ends, is_tube};
-use super::walk::names_of;
+use super::select::{Candidate, ReferenceSpans, Source, is_mirror, turned};
+use super::tube::{EndPlaces, ends, is_tube};
+use super::value::Unit;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
 /// A candidate with its direction.
@@ -22,7 +22,7 @@ pub(super) struct Directed<'a> {
 }
 
 /// Inputs of the search.
-struct Table<'p> {
+struct ChainSearch<'p> {
     pieces: &'p [Piece],
     unit: Unit,
     rims: Rims,
@@ -38,7 +38,7 @@ pub(super) fn direct<'a>(
     findings: &mut Findings,
 ) -> Vec<Directed<'a>> {
     let pieces = &source.cut.pieces;
-    let mut table = Table { pieces, unit: source.unit, rims: Rims::new(pieces), one: Identities::default() };
+    let mut table = ChainSearch { pieces, unit: source.unit, rims: Rims::new(pieces), one: Identities::default() };
     for seam in own {
         table.one.add_seam(&table.rims, &seam.a, &seam.b, &joint_marks(seam));
     }
@@ -66,13 +66,13 @@ pub(super) fn direct<'a>(
     directed
 }
 
-fn walked(chain: &[Run], with: bool) -> Vec<Vec<Span>> {
+fn walked(chain: &[ReferenceSpans], with: bool) -> Vec<Vec<Span>> {
     chain.iter().map(|run| if with { run.spans.clone() } else { turned(&run.spans) }).collect()
 }
 
-impl Table<'_> {
+impl ChainSearch<'_> {
     /// Index of the first run that does not go on into the next.
-    fn first_break(&self, chain: &[Run], with: bool) -> Option<usize> {
+    fn first_break(&self, chain: &[ReferenceSpans], with: bool) -> Option<usize> {
         let runs = walked(chain, with);
         runs.windows(2).position(|pair| {
             let ends = pair[0].last().zip(pair[1].first());
@@ -85,9 +85,9 @@ impl Table<'_> {
 
     fn direction<'a>(&self, candidate: &Candidate<'a>) -> Option<Directed<'a>> {
         let readings = self.readings(candidate);
-        let upright = readings.iter().position(|seam| self.tube_ends(seam) == Some(Ends::Below));
+        let upright = readings.iter().position(|seam| self.tube_ends(seam) == Some(EndPlaces::Below));
         // Only where the other one turns the tube over: what lies level may be walked either way.
-        let turned = readings.iter().any(|seam| self.tube_ends(seam) == Some(Ends::Above));
+        let turned = readings.iter().any(|seam| self.tube_ends(seam) == Some(EndPlaces::Above));
         readings.into_iter().nth(upright.filter(|_| turned).unwrap_or(0))
     }
 
@@ -108,7 +108,7 @@ impl Table<'_> {
     }
 
     /// Ends of a tube's own seam on the opening that the tube is sewn into. `None` if there is no tube.
-    fn tube_ends(&self, seam: &Directed) -> Option<Ends> {
+    fn tube_ends(&self, seam: &Directed) -> Option<EndPlaces> {
         let [a, b] = [&seam.a, &seam.b];
         match [a, b].map(|chain| is_tube(chain, &self.rims, &self.one)) {
             [true, false] => Some(ends(self.pieces, b)),
@@ -120,11 +120,11 @@ impl Table<'_> {
     /// Warns of a tube whose own seam comes to the top of its opening, though that has a foot.
     fn doubt_tube(&self, seam: &Directed, findings: &mut Findings) {
         let readings = self.readings(&seam.candidate);
-        let is = |of: Ends| readings.iter().find(|seam| self.tube_ends(seam) == Some(of));
-        let (Some(over), None, [_, _]) = (is(Ends::Above), is(Ends::Below), &readings[..]) else { return };
+        let is = |of: EndPlaces| readings.iter().find(|seam| self.tube_ends(seam) == Some(of));
+        let (Some(over), None, [_, _]) = (is(EndPlaces::Above), is(EndPlaces::Below), &readings[..]) else { return };
         let a_is_tube = is_tube(&over.a, &self.rims, &self.one);
         let opening = |seam: &Directed| ends(self.pieces, if a_is_tube { &seam.b } else { &seam.a });
-        if readings.iter().any(|seam| opening(seam) == Ends::Below) {
+        if readings.iter().any(|seam| opening(seam) == EndPlaces::Below) {
             let tube = if a_is_tube { &over.a } else { &over.b };
             let tube = self.pieces[tube[0].edge.piece].drawn_as.clone();
             let seam = seam.candidate.file.name.value.clone();
@@ -161,7 +161,7 @@ impl Table<'_> {
                 return;
             }
         }
-        let end = |chain: &[Run], last: bool| {
+        let end = |chain: &[ReferenceSpans], last: bool| {
             let run = if last { chain.last() } else { chain.first() };
             run.and_then(|r| r.spans.first()).map_or_else(String::new, |s| names_of(self.pieces, [s.edge]).concat())
         };
@@ -172,7 +172,7 @@ impl Table<'_> {
         findings.error(candidate.file.name.at, Problem::Twisted { seam, ends, turned, same });
     }
 
-    fn broken(&self, seam: String, chain: &[Run], i: usize, with: bool) -> Problem {
+    fn broken(&self, seam: String, chain: &[ReferenceSpans], i: usize, with: bool) -> Problem {
         let runs = walked(chain, with);
         let point = |span: Option<&Span>, end: bool| {
             span.map_or_else(String::new, |s| {

@@ -4,11 +4,12 @@ use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::{Draft, shown};
-use super::file::{ClosureFile, Cut, GarmentFile, Side, Unit};
+use super::file::{ClosureFile, GarmentFile};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::{Words, piece_of};
 use super::region::Region;
+use super::value::{CutKind, Side, Unit};
 use crate::geometry::Vec2;
 
 /// Reads all closures. A closure without `meets` is kept without tacks.
@@ -82,7 +83,7 @@ impl Wardrobe<'_> {
     /// The closure's points on a piece cut as a pair, and the same points of the other half.
     fn mirrored(&self, closure: &ClosureFile, on: &Instance) -> Vec<[(usize, Vec2); 2]> {
         let draft = &self.drafts[on.draft];
-        let other = on.side.map(Side::other).filter(|_| draft.cut == Cut::Pair);
+        let other = on.side.map(Side::other).filter(|_| draft.cut == CutKind::Pair);
         let Some(twin) = self.cut.instances.iter().find(|i| i.draft == on.draft && other.is_some() && i.side == other)
         else {
             return Vec::new();

@@ -4,18 +4,19 @@ use std::collections::HashSet;
 
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located, Spot};
-use super::draft::{Draft, NamedEdge, Stretch, spot_of};
-use super::file::{ClosureFile, Cut, GarmentFile, PieceFile, Unit};
+use super::draft::{Draft, DrawnStretch, NamedEdge, spot_of};
+use super::edge_name::{edge_name, names_of, written_edge};
+use super::file::{ClosureFile, GarmentFile, PieceFile};
+use super::free::{SLIVER, edge_ids, gaps};
 use super::problem::Problem;
 use super::reference::{parse_range, piece_of};
-use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
-use super::walk::{edge_name, names_of, written_edge};
+use super::value::{CutKind, Unit};
 use super::{EdgeId, Span};
 
 /// A stretch of an edge and the seam that takes it.
-struct Taken {
+struct TakenStretch {
     from: f64,
     to: f64,
     seam: usize,
@@ -57,11 +58,11 @@ fn drawn_at(edge: EdgeId, cut: &Pieces, pieces: &[PieceFile]) -> Option<Spot> {
     pieces.iter().find(|p| p.name.value == piece.drawn_as).map(|p| spot_of(&name, p))
 }
 
-fn taken(edge: EdgeId, seams: &Seams) -> Vec<Taken> {
+fn taken(edge: EdgeId, seams: &Seams) -> Vec<TakenStretch> {
     let mut taken = Vec::new();
     for (i, seam) in seams.seams.iter().enumerate() {
         let spans = seam.a.iter().chain(&seam.b).filter(|s| s.edge == edge);
-        taken.extend(spans.map(Span::sorted).map(|(from, to)| Taken { from, to, seam: i }));
+        taken.extend(spans.map(Span::sorted).map(|(from, to)| TakenStretch { from, to, seam: i }));
     }
     taken
 }
@@ -72,7 +73,14 @@ fn may_share(file: &GarmentFile, cut: &Pieces, seams: &Seams, i: usize) -> bool 
     seams.written[i].is_some_and(|w| file.seams[w].layers.is_some()) || seams.seams[i].is_lapped(&cut.pieces)
 }
 
-fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, taken: &[Taken], findings: &mut Findings) {
+fn sewn_twice(
+    file: &GarmentFile,
+    cut: &Pieces,
+    seams: &Seams,
+    edge: EdgeId,
+    taken: &[TakenStretch],
+    findings: &mut Findings,
+) {
     for (i, one) in taken.iter().enumerate() {
         for other in &taken[..i] {
             let (from, to) = (one.from.max(other.from), one.to.min(other.to));
@@ -107,7 +115,7 @@ struct Lists<'a> {
 }
 
 impl Lists<'_> {
-    fn look_at(&mut self, edge: EdgeId, taken: &[Taken], cut: &Pieces, seams: &Seams) {
+    fn look_at(&mut self, edge: EdgeId, taken: &[TakenStretch], cut: &Pieces, seams: &Seams) {
         let said = seams.open.iter().chain(&self.free).filter(|s| s.edge == edge).map(Span::sorted);
         let length = length(cut, edge);
         let covered = taken.iter().map(|t| (t.from, t.to)).chain(said).collect();
@@ -223,12 +231,12 @@ impl EdgeNames<'_> {
         for instance in self.cut.instances.iter().filter(|i| i.piece == span.edge.piece) {
             let draft = &self.drafts[instance.draft];
             let side = match (&draft.cut, instance.side) {
-                (Cut::Fold(_), Some(side)) => format!(".{}", side.letter()),
-                _ => String::new(),
+                (CutKind::Fold(_), Some(side)) => side.suffix(),
+                _ => "",
             };
             for named in &draft.named {
                 for part in named.parts.iter().filter(|p| instance.edge(p.edge) == Some(span.edge)) {
-                    let ends = Stretch { edge: part.edge, from: span.from, to: span.to };
+                    let ends = DrawnStretch { edge: part.edge, from: span.from, to: span.to };
                     let Some(drawn) = instance.span(draft, ends) else { continue };
                     let (from, to) = drawn.sorted();
                     let (from, to) = ((from + part.offset).max(part.from), (to + part.offset).min(part.to));
@@ -318,7 +326,7 @@ pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, s
         if spans.any(|s| pieces.contains(&s.edge.piece)) || is_tacked(file, &draft.name) {
             continue;
         }
-        if draft.cut == Cut::Pair {
+        if draft.cut == CutKind::Pair {
             let at = file.pieces.iter().find(|p| p.name.value == draft.name).and_then(|p| p.cut.as_ref());
             findings.error(at.map_or(draft.at, |c| c.at), Problem::PairUnsewn(draft.name.clone()));
         } else {

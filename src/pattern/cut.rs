@@ -7,10 +7,10 @@
 
 use nalgebra::Matrix2;
 
-use super::draft::{Draft, Stretch};
-use super::file::{Cut, Side};
+use super::draft::{Draft, DrawnStretch};
 use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
+use super::value::{CutKind, Side};
 use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
 
@@ -36,7 +36,7 @@ pub(super) struct Instance {
 /// Suffix of the name of a piece that is cut more than once: `.L`, `.2`, or nothing.
 pub(super) fn suffix(side: Option<Side>, copy: Option<usize>) -> String {
     match (side, copy) {
-        (Some(side), _) => format!(".{}", side.letter()),
+        (Some(side), _) => side.suffix().to_owned(),
         (None, Some(copy)) => format!(".{copy}"),
         (None, None) => String::new(),
     }
@@ -59,7 +59,7 @@ impl Instance {
     }
 
     /// A stretch of the drawing on the cut piece, walked the same way as on the drawing.
-    pub(super) fn span(&self, draft: &Draft, s: Stretch) -> Option<Span> {
+    pub(super) fn span(&self, draft: &Draft, s: DrawnStretch) -> Option<Span> {
         let edge = self.edge(s.edge)?;
         let length = draft.length(s.edge);
         let turn = |x: f64| if self.mirrored { length - x } else { x };
@@ -80,13 +80,13 @@ pub(super) fn cut(drafts: &[Draft], default_fabric: &str) -> Pieces {
     for (i, draft) in drafts.iter().enumerate() {
         let fabric = draft.fabric.as_ref().map_or(default_fabric, |f| &f.value);
         match draft.cut {
-            Cut::One => out.add_whole(i, draft, fabric, None, None),
-            Cut::Count(n) => (1..=n).for_each(|copy| out.add_whole(i, draft, fabric, None, Some(copy))),
-            Cut::Pair => {
+            CutKind::One => out.add_whole(i, draft, fabric, None, None),
+            CutKind::Count(n) => (1..=n).for_each(|copy| out.add_whole(i, draft, fabric, None, Some(copy))),
+            CutKind::Pair => {
                 let sides = [draft.drawn, draft.drawn.other()];
                 sides.into_iter().for_each(|side| out.add_whole(i, draft, fabric, Some(side), None));
             }
-            Cut::Fold(_) => out.add_folded(i, draft, fabric),
+            CutKind::Fold(_) => out.add_folded(i, draft, fabric),
         }
     }
     out
@@ -246,7 +246,7 @@ fn folded_lines(draft: &Draft, halves: &[Instance; 2], axis: &Path) -> Vec<Line>
 
 fn notches(draft: &Draft, to: &Instance) -> Vec<Notch> {
     let notch = |&(edge, at, double): &((usize, usize), f64, bool)| {
-        let span = to.span(draft, Stretch { edge, from: at, to: at })?;
+        let span = to.span(draft, DrawnStretch { edge, from: at, to: at })?;
         Some(Notch { edge: span.edge, at: span.from, double })
     };
     draft.notches.iter().filter_map(notch).collect()

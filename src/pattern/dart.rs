@@ -4,9 +4,10 @@
 
 use super::crossing::contains;
 use super::diagnostic::{Findings, Spot};
-use super::draft::{Draft, OwnSeam, Part, Stretch, position, shown, unknown_edge};
-use super::file::{DartFile, DartShape, PieceFile, Unit};
+use super::draft::{Draft, DrawnStretch, OwnSeam, SewnPart, position, shown, unknown_edge};
+use super::file::{DartFile, DartShape, PieceFile};
 use super::problem::Problem;
+use super::value::Unit;
 use super::{Edge, SeamKind};
 use crate::geometry::{Path, Vec2};
 
@@ -122,7 +123,7 @@ fn open_edge(drawn: &mut Draft, edge: &Edge, wedges: &[Wedge]) {
         let to = wedges.get(i).map_or(whole, |w| w.mouth[0]);
         let name = if i == 0 { edge.name.clone() } else { format!("{}.{}", edge.name, i + 1) };
         let at = drawn.add_outline_edge(name, edge.path.part(from, to));
-        parts.push(Part { edge: at, from, to, offset: from });
+        parts.push(SewnPart { edge: at, from, to, offset: from });
         if let Some(wedge) = wedges.get(i) {
             add_legs(drawn, edge, wedge);
             from = wedge.mouth[1];
@@ -146,8 +147,8 @@ fn add_legs(drawn: &mut Draft, edge: &Edge, wedge: &Wedge) {
 fn dart_seam(drawn: &Draft, name: String, a: (usize, usize), b: (usize, usize)) -> OwnSeam {
     OwnSeam {
         name,
-        a: Stretch { edge: a, from: 0.0, to: drawn.length(a) },
-        b: Stretch { edge: b, from: drawn.length(b), to: 0.0 },
+        a: DrawnStretch { edge: a, from: 0.0, to: drawn.length(a) },
+        b: DrawnStretch { edge: b, from: drawn.length(b), to: 0.0 },
         kind: SeamKind::Dart,
     }
 }

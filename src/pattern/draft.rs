@@ -6,13 +6,14 @@ use std::collections::HashSet;
 use super::crossing::{chords, contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
-use super::file::{AllowanceFile, Cut, PieceFile, PlaceFile, Quantity, Side, Unit};
+use super::file::{AllowanceFile, PieceFile, PlaceFile};
 use super::line;
 use super::outline::{CLOSURE, ended_at, outline, whole_path};
 use super::place_word::PlaceWord;
 use super::pleat;
 use super::problem::Problem;
 use super::region::Region;
+use super::value::{CutKind, Quantity, Side, Unit};
 use super::{Edge, Line, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3, box_of};
 use crate::input::nearest;
@@ -25,7 +26,7 @@ const SNAP: f64 = 5e-4;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stretch {
+pub(super) struct DrawnStretch {
     pub(super) edge: (usize, usize),
     pub(super) from: f64,
     pub(super) to: f64,
@@ -34,7 +35,7 @@ pub(super) struct Stretch {
 /// A part of a named edge that is there to be sewn: positions `from..to` of the drawn edge lie on `edge` at
 /// `position - offset`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct SewnPart {
     pub(super) edge: (usize, usize),
     pub(super) from: f64,
     pub(super) to: f64,
@@ -47,19 +48,19 @@ pub(super) struct NamedEdge {
     pub(super) name: String,
     /// Length as drawn.
     pub(super) length: f64,
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<SewnPart>,
 }
 
 impl NamedEdge {
     fn whole(name: String, edge: (usize, usize), length: f64) -> Self {
-        Self { name, length, parts: vec![Part { edge, from: 0.0, to: length, offset: 0.0 }] }
+        Self { name, length, parts: vec![SewnPart { edge, from: 0.0, to: length, offset: 0.0 }] }
     }
 
     /// The stretches of the drawn range `from..to`, in drawn order.
-    pub(super) fn stretches(&self, from: f64, to: f64) -> Vec<Stretch> {
-        let clip = |p: &Part| {
+    pub(super) fn stretches(&self, from: f64, to: f64) -> Vec<DrawnStretch> {
+        let clip = |p: &SewnPart| {
             let (a, b) = (p.from.max(from), p.to.min(to));
-            (b > a).then_some(Stretch { edge: p.edge, from: a - p.offset, to: b - p.offset })
+            (b > a).then_some(DrawnStretch { edge: p.edge, from: a - p.offset, to: b - p.offset })
         };
         self.parts.iter().filter_map(clip).collect()
     }
@@ -91,8 +92,8 @@ impl NamedEdge {
 #[derive(Clone, Debug)]
 pub(super) struct OwnSeam {
     pub(super) name: String,
-    pub(super) a: Stretch,
-    pub(super) b: Stretch,
+    pub(super) a: DrawnStretch,
+    pub(super) b: DrawnStretch,
     pub(super) kind: SeamKind,
 }
 
@@ -101,7 +102,7 @@ pub(super) struct OwnSeam {
 pub(super) struct Draft {
     pub(super) name: String,
     pub(super) at: Spot,
-    pub(super) cut: Cut,
+    pub(super) cut: CutKind,
     /// Index of the fold edge in the outline.
     pub(super) fold: Option<usize>,
     pub(super) drawn: Side,
@@ -163,7 +164,7 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
     let mut drawn = Draft {
         name,
         at: piece.name.at,
-        cut: piece.cut.as_ref().map_or(Cut::One, |c| c.value.clone()),
+        cut: piece.cut.as_ref().map_or(CutKind::One, |c| c.value.clone()),
         fold: None,
         drawn: piece.drawn.as_ref().map_or(Side::Left, |d| d.value),
         fabric: piece.fabric.clone(),
@@ -288,7 +289,7 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
 }
 
 fn fold(drawn: &mut Draft, piece: &PieceFile, findings: &mut Findings) {
-    let (Cut::Fold(edge), Some(cut)) = (drawn.cut.clone(), &piece.cut) else { return };
+    let (CutKind::Fold(edge), Some(cut)) = (drawn.cut.clone(), &piece.cut) else { return };
     let Some(named) = drawn.find(&edge) else {
         findings.error(cut.at, drawn.unknown_edge(&edge));
         return;

@@ -4,20 +4,21 @@
 use super::closure::drawn_points;
 use super::cut::{Pieces, cut};
 use super::diagnostic::Findings;
-use super::draft::{Draft, Stretch, draft};
-use super::file::{AllowanceFile, AllowanceWidth, Corner, Cut, GarmentFile, PieceFile, Side};
+use super::draft::{Draft, DrawnStretch, draft};
+use super::file::{AllowanceFile, AllowanceWidth, GarmentFile, PieceFile};
 use super::inherit::complete_pieces;
 use super::seam::{Seams, seams};
+use super::value::{Corner, CutKind, Side};
 use super::{EdgeId, FabricUse, Garment, Line, PleatLayer, SeamKind};
 use crate::geometry::{Path, Vec2};
 
 /// A piece as drawn. Lengths are metres, y down, the right side of the cloth facing the reader.
 #[derive(Clone, Debug)]
-pub struct Drawing {
+pub struct DrawnPiece {
     /// As in the file.
     pub name: String,
     /// How often it is cut, and how.
-    pub cut: Cut,
+    pub cut: CutKind,
     /// The edge of the outline that lies on the fold of the cloth.
     pub fold: Option<usize>,
     /// Which of a pair, or which half, it is.
@@ -50,7 +51,7 @@ pub struct Drawing {
     pub note: Option<String>,
 }
 
-impl Drawing {
+impl DrawnPiece {
     /// Whether an edge of the outline is a leg of a dart.
     pub fn is_leg(&self, edge: usize) -> bool {
         self.darts.iter().any(|d| d.legs.contains(&edge))
@@ -124,7 +125,7 @@ pub struct DrawnNotch {
 ///
 /// An edge's allowance is what its piece says for it, or its seam, or its piece for all edges, or the file; a hole that
 /// nothing is sewn into has the first alone.
-pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<Drawing> {
+pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<DrawnPiece> {
     // Everything wrong has been said when the garment was read.
     let mut said = Findings::new("", "");
     let pieces = complete_pieces(file, &mut said);
@@ -146,7 +147,7 @@ struct Book<'a> {
 }
 
 impl Book<'_> {
-    fn drawing(&self, piece: &PieceFile, index: usize) -> Drawing {
+    fn drawing(&self, piece: &PieceFile, index: usize) -> DrawnPiece {
         let drawn = &self.drafts[index];
         let is_named = |f: &&FabricUse| drawn.fabric.as_ref().is_none_or(|own| own.value == f.name);
         let fabric = self.fabrics.iter().find(is_named);
@@ -159,7 +160,7 @@ impl Book<'_> {
             DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), seams, allowance }
         };
         let ring = |r: usize| (0..drawn.rings[r].len()).map(|i| edge((r, i))).collect();
-        Drawing {
+        DrawnPiece {
             name: drawn.name.clone(),
             cut: drawn.cut.clone(),
             fold: drawn.fold,
@@ -199,7 +200,7 @@ impl Book<'_> {
         (sewn, width)
     }
 
-    /// What is said of an edge's allowance; of what is merely `cut_out` only what is said of it by name.
+    /// The file's statement of an edge's allowance. An edge that is merely `cut_out` has the one that names it, if any.
     fn allowance(
         &self,
         piece: &PieceFile,
@@ -245,7 +246,7 @@ fn folds(drawn: &Draft) -> Vec<DrawnFold> {
         let [top, under] = pair else { return None };
         let same = top.kind == SeamKind::Pleat(PleatLayer::Top) && under.kind == SeamKind::Pleat(PleatLayer::Under);
         // The first stretch ends (or begins) at the fold line; the second lies between the hidden fold and the far end.
-        let Stretch { edge, from, to } = top.a;
+        let DrawnStretch { edge, from, to } = top.a;
         let at = if (to - top.b.to).abs() < 1e-9 { to } else { from };
         let ends = [under.a.from, under.a.to, under.b.from, under.b.to];
         let far = ends.into_iter().max_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()))?;
@@ -254,7 +255,7 @@ fn folds(drawn: &Draft) -> Vec<DrawnFold> {
     drawn.own_seams.windows(2).filter_map(fold).collect()
 }
 
-impl Drawing {
+impl DrawnPiece {
     /// The edge at (ring, index).
     pub fn edge(&self, (ring, index): (usize, usize)) -> &DrawnEdge {
         &self.rings[ring][index]

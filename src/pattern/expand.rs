@@ -3,10 +3,11 @@
 use super::cut::cut;
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, draft};
-use super::file::{GarmentFile, PieceFile, SeamFile, Value};
+use super::file::{GarmentFile, PieceFile, SeamFile};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
+use super::value::Value;
 use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, notch, place_word};
 use crate::fabric::FabricSpec;
 use crate::input::nearest;

@@ -1,6 +1,6 @@
 //! Rims that closures close: open after sewing, but not as the garment is worn.
 
-use super::rim::free_spans;
+use super::free::free_spans;
 use super::{Closure, EdgeId, Garment, Span};
 use crate::geometry::{DisjointSets, Vec2};
 
@@ -165,10 +165,11 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
         [a, b].iter().for_each(|&[r, k]| crossed[r][k] = Some(i));
         joined.join(a[0] as u32, b[0] as u32);
     }
-    let parts: Vec<Part> = walked(&next).into_iter().map(|steps| Part::new(steps, rims, bridges, &crossed)).collect();
+    let parts: Vec<BridgedRing> =
+        walked(&next).into_iter().map(|steps| BridgedRing::new(steps, rims, bridges, &crossed)).collect();
     let mut open: Vec<bool> = parts.iter().map(|p| !p.closed).collect();
     for (i, part) in parts.iter().enumerate() {
-        let together = |other: &Part| joined.same(part.steps[0][0] as u32, other.steps[0][0] as u32);
+        let together = |other: &BridgedRing| joined.same(part.steps[0][0] as u32, other.steps[0][0] as u32);
         let rest = || parts.iter().enumerate().filter(|(_, p)| together(p));
         if !part.slit && !rest().any(|(j, p)| open[j] || p.length > part.length) {
             open[i] = true;
@@ -209,7 +210,7 @@ fn walked(next: &[Vec<[usize; 2]>]) -> Vec<Vec<[usize; 2]>> {
 }
 
 /// A ring between bridges.
-struct Part {
+struct BridgedRing {
     steps: Vec<[usize; 2]>,
     length: f64,
     closed: bool,
@@ -217,7 +218,7 @@ struct Part {
     slit: bool,
 }
 
-impl Part {
+impl BridgedRing {
     fn new<K: PartialEq>(
         steps: Vec<[usize; 2]>,
         rims: &[Vec<Step<K>>],

@@ -3,13 +3,14 @@
 use super::along::{Along, along};
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, shown};
-use super::file::{LineFile, PieceFile, Unit};
+use super::file::{LineFile, PieceFile};
 use super::outline::whole_path;
 use super::problem::Problem;
 use super::region::{Region, first_off};
+use super::value::Unit;
 use super::{Line, LineKind};
 use crate::geometry::{Path, Vec2, mirrored};
-use crate::input::nearest;
+use crate::input::{did_you_mean, nearest};
 
 /// Least length of a line that bends or gathers the cloth, metres. A shorter one is a slip of the pen, and would make
 /// springs without length.
@@ -105,7 +106,7 @@ fn contradiction(line: &LineFile) -> Option<String> {
         }
         (Some(kind), None, None) => {
             let meant = nearest(kind, ["elastic", "fold"])?;
-            Some(format!("is of kind '{kind}'; did you mean '{meant}'?"))
+            Some(format!("is of kind '{kind}'{}", did_you_mean(Some(meant))))
         }
         _ => None,
     }

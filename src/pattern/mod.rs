@@ -29,9 +29,11 @@ mod dart;
 mod diagnostic;
 mod draft;
 mod drawing;
+mod edge_name;
 mod expand;
 mod fasten;
 mod file;
+mod free;
 mod inherit;
 mod layers;
 mod line;
@@ -50,6 +52,7 @@ mod seam;
 mod select;
 mod spelling;
 mod tube;
+mod value;
 mod walk;
 mod want_file;
 
@@ -59,13 +62,14 @@ pub(crate) use bound::known_girth;
 pub(crate) use crossing::loop_crossing;
 pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
-pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
+pub use drawing::{Allowance, Dart, DrawnEdge, DrawnFold, DrawnNotch, DrawnPiece, drawings};
+pub(crate) use edge_name::edge_name;
+pub use edge_name::{written_edge, written_names};
 pub use expand::{DEFAULT_CLOTH, expand, fabrics};
 pub use fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 pub use file::{
-    AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
-    OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
-    Unit, Value,
+    AllowanceFile, AllowanceWidth, ClosureFile, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile,
+    OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, SeamFile, TestEntry, TestFile,
 };
 pub use inherit::whole_pieces;
 pub(crate) use inherit::{own_shape, unknown_piece};
@@ -79,7 +83,8 @@ pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;
 pub(crate) use spelling::glob;
-pub use walk::{SeamWalk, walk, written_edge, written_names};
+pub use value::{Corner, CutKind, Quantity, Side, Unit, Value};
+pub use walk::{SeamWalk, walk};
 pub use want_file::{KnobFile, WantFile, Wanted, WantsFile};
 
 use std::ops::RangeInclusive;

@@ -1,10 +1,10 @@
 //! Notches along seams: where a walk meets them, and whether those of the two sides meet.
 
 use super::diagnostic::{Findings, Spot};
+use super::edge_name::edge_name;
 use super::file::SeamFile;
 use super::problem::Problem;
 use super::rim::joints;
-use super::walk::edge_name;
 use super::{EdgeId, Garment, Notch, Piece, Seam, Span};
 
 /// Distance by which notches may miss each other, after ease, metres. Nobody draws or sews less exactly on purpose.

@@ -5,8 +5,9 @@ use std::collections::HashSet;
 use super::Edge;
 use super::diagnostic::{Findings, Spot};
 use super::draft::shown;
-use super::file::{OutlineFile, Unit};
+use super::file::OutlineFile;
 use super::problem::Problem;
+use super::value::Unit;
 use crate::geometry::{Path, Vec2};
 
 /// Distance by which a drawn outline may miss its start, metres: rounding of the file's numbers.

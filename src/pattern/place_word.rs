@@ -1,9 +1,10 @@
 //! The words of `place:`, in one table, and those of piece names that say the same.
 
 use super::diagnostic::Findings;
-use super::file::{GarmentFile, PieceFile, PlaceFile, Unit};
+use super::file::{GarmentFile, PieceFile, PlaceFile};
 use super::outfit::own_name;
 use super::problem::Problem;
+use super::value::Unit;
 use crate::input::nearest;
 
 /// A word of `place:`. Other spellings of it are read as the same word.

@@ -6,14 +6,15 @@
 //! The seam of the edge walks what is visible, and two seams per fold hold the under-layers to it and to each other.
 
 use super::diagnostic::{Findings, Spot};
-use super::draft::{Draft, OwnSeam, Part, Stretch, position};
-use super::file::{PieceFile, PleatFile, PleatKind, Unit};
+use super::draft::{Draft, DrawnStretch, OwnSeam, SewnPart, position};
+use super::file::{PieceFile, PleatFile, PleatKind};
 use super::problem::Problem;
+use super::value::Unit;
 use super::{PleatLayer, SeamKind};
 
 /// One fold: begins at `at`, points to the edge's end or start.
 #[derive(Clone, Copy)]
-struct Fold {
+struct PleatFold {
     at: f64,
     /// Start of its pleat in the file.
     pleat: f64,
@@ -22,7 +23,7 @@ struct Fold {
     spot: Spot,
 }
 
-impl Fold {
+impl PleatFold {
     /// The top layer and the under-layers in walking order.
     fn occupied(self) -> [f64; 2] {
         let d = self.depth;
@@ -91,7 +92,7 @@ fn lay_edge(drawn: &mut Draft, edge: &str, pleats: &[&PleatFile], unit: Unit, fi
 }
 
 /// The first fold that reaches over something, how far, and over what it reaches. Tops may meet, pleats edge to edge.
-fn overlap(folds: &[Fold], length: f64) -> Option<(&Fold, f64, String)> {
+fn overlap(folds: &[PleatFold], length: f64) -> Option<(&PleatFold, f64, String)> {
     let (mut end, mut before) = (0.0, "the start of the edge".to_owned());
     for fold in folds {
         let [from, to] = fold.occupied();
@@ -123,11 +124,11 @@ fn points_to_end(drawn: &Draft, (_, index): (usize, usize), pleat: &PleatFile) -
     }
 }
 
-fn folds_of(pleat: &PleatFile, to_end: bool, length: f64, unit: Unit) -> Vec<Fold> {
+fn folds_of(pleat: &PleatFile, to_end: bool, length: f64, unit: Unit) -> Vec<PleatFold> {
     let depth = pleat.depth.value.value(unit);
     let kind = pleat.kind.as_ref().map_or(PleatKind::Knife, |k| k.value);
     let folds = |pleat: f64, spot| {
-        let one = |after: f64, to_end| Fold { at: pleat + after, pleat, depth, to_end, spot };
+        let one = |after: f64, to_end| PleatFold { at: pleat + after, pleat, depth, to_end, spot };
         match kind {
             PleatKind::Knife => vec![one(0.0, to_end)],
             PleatKind::Box => vec![one(0.0, false), one(4.0 * depth, true)],
@@ -137,7 +138,7 @@ fn folds_of(pleat: &PleatFile, to_end: bool, length: f64, unit: Unit) -> Vec<Fol
     pleat.at.iter().flat_map(|at| folds(position(at.value, length, unit), at.at)).collect()
 }
 
-fn apply(drawn: &mut Draft, edge: &str, whole: (usize, usize), length: f64, folds: &[Fold]) {
+fn apply(drawn: &mut Draft, edge: &str, whole: (usize, usize), length: f64, folds: &[PleatFold]) {
     let mut parts = Vec::new();
     let mut from = 0.0;
     for fold in folds {
@@ -147,11 +148,11 @@ fn apply(drawn: &mut Draft, edge: &str, whole: (usize, usize), length: f64, fold
     parts.push((from, length));
     let visible = parts.into_iter().filter(|(a, b)| b - a > 1e-9);
     if let Some(named) = drawn.named.iter_mut().find(|n| n.name == edge) {
-        named.parts = visible.map(|(from, to)| Part { edge: whole, from, to, offset: 0.0 }).collect();
+        named.parts = visible.map(|(from, to)| SewnPart { edge: whole, from, to, offset: 0.0 }).collect();
     }
     for (i, fold) in folds.iter().enumerate() {
         for ([a, b], layer) in fold.layers().into_iter().zip([PleatLayer::Top, PleatLayer::Under]) {
-            let stretch = |(from, to)| Stretch { edge: whole, from, to };
+            let stretch = |(from, to)| DrawnStretch { edge: whole, from, to };
             drawn.own_seams.push(OwnSeam {
                 name: format!("{edge}.pleat{}.{}", i + 1, if layer == PleatLayer::Top { "top" } else { "under" }),
                 a: stretch(a),

@@ -1,6 +1,7 @@
 //! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
 
 use super::GIRTHS;
+use crate::input::did_you_mean;
 
 /// Kinds of mistakes, with the data of their messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -65,17 +66,17 @@ pub enum Problem {
     BadName(String),
 
     // Names.
-    #[error("piece '{name}' not found{}", did_you_mean(.nearest))]
+    #[error("piece '{name}' not found{}", did_you_mean(.nearest.as_deref()))]
     UnknownPiece { name: String, nearest: Option<String>, known: String },
     #[error("edge '{name}' not found; {known}")]
     UnknownEdge { name: String, nearest: Option<String>, known: String },
-    #[error("seam '{name}' not found{}", did_you_mean(.nearest))]
+    #[error("seam '{name}' not found{}", did_you_mean(.nearest.as_deref()))]
     UnknownSeam { name: String, nearest: Option<String>, known: String },
-    #[error("no closure '{name}' with points to measure{}", did_you_mean(.nearest))]
+    #[error("no closure '{name}' with points to measure{}", did_you_mean(.nearest.as_deref()))]
     UnknownClosure { name: String, nearest: Option<String>, known: String },
-    #[error("the body has no girth '{name}'{}", did_you_mean(.nearest))]
+    #[error("the body has no girth '{name}'{}", did_you_mean(.nearest.as_deref()))]
     UnknownGirth { name: String, nearest: Option<String> },
-    #[error("fabric '{name}' not found{}", did_you_mean(.nearest))]
+    #[error("fabric '{name}' not found{}", did_you_mean(.nearest.as_deref()))]
     UnknownFabric { name: String, nearest: Option<String>, known: String },
     #[error("'{0}' names no edge; write piece.edge, piece.L.edge or piece.edge@20%..80%")]
     BadReference(String),
@@ -91,7 +92,7 @@ pub enum Problem {
     NoPieces,
 
     // Places.
-    #[error("place of '{piece}': '{word}' means nothing{}", did_you_mean(.nearest))]
+    #[error("place of '{piece}': '{word}' means nothing{}", did_you_mean(.nearest.as_deref()))]
     PlaceWord { piece: String, word: String, nearest: Option<String>, known: Box<str> },
     #[error("place of '{piece}': '{place}' says two sides; a piece has one")]
     PlaceBoth { piece: String, place: String },
@@ -101,7 +102,7 @@ pub enum Problem {
     // Alterations.
     #[error("dart '{name}' not found; {known}")]
     UnknownDart { name: String, nearest: Option<String>, known: String },
-    #[error("size '{name}' not found{}", did_you_mean(.nearest))]
+    #[error("size '{name}' not found{}", did_you_mean(.nearest.as_deref()))]
     UnknownSize { name: String, nearest: Option<String>, known: String },
     #[error("'{0}' is altered edge by edge: write piece.edge, without a side or a range")]
     AlterPart(String),
@@ -345,10 +346,6 @@ fn tenth_below(x: f64) -> f64 {
 /// To two decimals.
 fn hundredths(x: f64) -> f64 {
     (100.0 * x).round() / 100.0
-}
-
-fn did_you_mean(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |n| format!("; did you mean '{n}'?"))
 }
 
 impl Problem {

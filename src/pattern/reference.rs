@@ -1,8 +1,8 @@
 //! Edge references: `front.side`, `front.L.side`, `front.side.L`, `tab.2.end`, `sleeve.cap@20%..80%`.
 
 use super::diagnostic::{Located, Spot};
-use super::file::{Quantity, Side, Unit};
 use super::problem::Problem;
+use super::value::{Quantity, Side, Unit};
 
 /// A parsed edge reference.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
+use super::free::{SLIVER, free_spans};
 use super::{EdgeId, Garment, Piece, Seam, Span};
 use crate::geometry::DisjointSets;
 
@@ -140,9 +141,6 @@ pub struct Opening {
     pub length: f64,
 }
 
-/// Length of a free stretch below which it is rounding and no opening, metres.
-pub(super) const SLIVER: f64 = 1e-3;
-
 /// The openings of the sewn garment, from seams and closures alone: every stretch of rim that no seam takes, joined
 /// where seams or corners join them, without stretches that closures close.
 pub fn openings(garment: &Garment) -> Vec<Opening> {
@@ -215,49 +213,6 @@ impl FreeRim {
     }
 }
 
-/// Parts of edges that no seam takes, divided where something is fastened. Two layers that are sewn on each other the
-/// same way round and to nothing else, as a lining all round its shell, end there, and the outer one's edge is a rim.
-pub(super) fn free_spans(garment: &Garment, fastened: &[Fastening]) -> Vec<Span> {
-    let ending: Vec<&Span> = garment.seams.iter().filter_map(|s| ending(garment, s)).flatten().collect();
-    let is_taken = |span: &&Span| !ending.iter().any(|e| std::ptr::eq(*e, *span));
-    let mut free: Vec<Span> = Vec::new();
-    for edge in edge_ids(&garment.pieces) {
-        let all = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b));
-        let spans = all.filter(|s| s.edge == edge).filter(is_taken);
-        let taken = spans.map(Span::sorted).collect();
-        let gaps = gaps(taken, garment.pieces[edge.piece].loops[edge.ring][edge.index].path.length());
-        let mut cuts: Vec<f64> =
-            fastened.iter().flat_map(|f| f.ends).filter(|e| e.edge == edge).map(|e| e.at).collect();
-        cuts.sort_by(f64::total_cmp);
-        for (mut from, to) in gaps {
-            for &at in &cuts {
-                if at - from > SLIVER && to - at > SLIVER {
-                    free.push(Span { edge, from, to: at });
-                    from = at;
-                }
-            }
-            free.push(Span { edge, from, to });
-        }
-    }
-    free
-}
-
-/// The outer chain of a seam along which both layers end.
-fn ending<'g>(garment: &'g Garment, seam: &'g Seam) -> Option<&'g [Span]> {
-    let with = |chain: &[Span]| chain.first().map(|s| s.to > s.from);
-    let overlap = |s: &Span, t: &Span| {
-        let ((a, b), (c, d)) = (s.sorted(), t.sorted());
-        s.edge == t.edge && b.min(d) - a.max(c) > SLIVER
-    };
-    let others = || garment.seams.iter().filter(|other| !std::ptr::eq(*other, seam));
-    let is_shared = |s: &Span| others().any(|other| other.a.iter().chain(&other.b).any(|t| overlap(s, t)));
-    if with(&seam.a) != with(&seam.b) || seam.a.iter().chain(&seam.b).any(is_shared) {
-        return None;
-    }
-    let layer = |chain: &[Span]| chain.first().map(|s| garment.pieces[s.edge.piece].layer);
-    Some(if layer(&seam.b) > layer(&seam.a) { &seam.b } else { &seam.a })
-}
-
 /// The free stretches by the rims they are joined to.
 fn free_rims(garment: &Garment, fastened: &[Fastening]) -> Vec<FreeRim> {
     let rims = Rims::new(&garment.pieces);
@@ -265,7 +220,8 @@ fn free_rims(garment: &Garment, fastened: &[Fastening]) -> Vec<FreeRim> {
     for seam in &garment.seams {
         one.add_seam(&rims, &seam.a, &seam.b, &joint_marks(seam));
     }
-    let free = free_spans(garment, fastened);
+    let divided: Vec<(EdgeId, f64)> = fastened.iter().flat_map(|f| f.ends).map(|end| (end.edge, end.at)).collect();
+    let free = free_spans(garment, &divided);
     let ends_of = |s: &Span| [s.from, s.to].map(|at| rims.point(s.edge, at));
     let ends: Vec<[u32; 2]> = free.iter().map(|s| ends_of(s).map(|p| one.class(&rims, p))).collect();
     for span in &free {
@@ -310,30 +266,4 @@ pub(super) fn joints(chain: &[Span]) -> Vec<f64> {
         sum
     });
     ends.take(chain.len().saturating_sub(1)).collect()
-}
-
-/// Every edge of every piece.
-pub(super) fn edge_ids(pieces: &[Piece]) -> Vec<EdgeId> {
-    let mut all = Vec::new();
-    for (piece, p) in pieces.iter().enumerate() {
-        for (ring, edges) in p.loops.iter().enumerate() {
-            all.extend((0..edges.len()).map(|index| EdgeId { piece, ring, index }));
-        }
-    }
-    all
-}
-
-/// The parts of `0..length` that the intervals leave.
-pub(super) fn gaps(mut taken: Vec<(f64, f64)>, length: f64) -> Vec<(f64, f64)> {
-    taken.sort_by(|a, b| a.0.total_cmp(&b.0));
-    taken.push((length, length));
-    let mut left = Vec::new();
-    let mut at = 0.0;
-    for (from, to) in taken {
-        if from - at > SLIVER {
-            left.push((at, from));
-        }
-        at = to.max(at);
-    }
-    left
 }

@@ -4,11 +4,12 @@ use super::chain::{self, Directed};
 use super::cut::Pieces;
 use super::diagnostic::{Findings, Spot};
 use super::draft::Draft;
-use super::file::{OpenFile, SeamFile, Unit};
+use super::file::{OpenFile, SeamFile};
 use super::notch::matched;
 use super::problem::Problem;
 use super::rim::{Rims, joints};
 use super::select::{Candidate, Source};
+use super::value::Unit;
 use super::walk::difference;
 use super::{Garment, Give, Seam, SeamKind, Span};
 
@@ -235,8 +236,9 @@ impl Finish<'_> {
         let candidate = &directed.candidate;
         let (few, many) = (on_a.len().min(on_b.len()), on_a.len().max(on_b.len()));
         if few < many {
-            let text =
-                |chain: &[super::select::Run]| chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ");
+            let text = |chain: &[super::select::ReferenceSpans]| {
+                chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ")
+            };
             let (mut edge, mut other) = (text(&candidate.a), text(&candidate.b));
             if on_a.len() < on_b.len() {
                 std::mem::swap(&mut edge, &mut other);
@@ -283,7 +285,8 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
     if apart.abs() <= allowed + 1e-9 {
         return;
     }
-    let text = |chain: &[super::select::Run]| chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ");
+    let text =
+        |chain: &[super::select::ReferenceSpans]| chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ");
     let file = candidate.file;
     findings.error(
         file.name.at,

@@ -8,14 +8,15 @@ use super::Span;
 use super::cut::{Instance, Pieces, suffix};
 use super::diagnostic::Findings;
 use super::draft::Draft;
-use super::file::{Cut, SeamFile, Side, Unit};
+use super::file::SeamFile;
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::Reference;
+use super::value::{CutKind, Side, Unit};
 
 /// The spans of one reference, in the direction of the outline.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct ReferenceSpans {
     /// `front.side`, as written.
     pub(super) text: String,
     pub(super) spans: Vec<Span>,
@@ -27,14 +28,14 @@ pub(super) struct Candidate<'a> {
     pub(super) file: &'a SeamFile,
     /// With the side: `side.L`.
     pub(super) name: String,
-    pub(super) a: Vec<Run>,
-    pub(super) b: Vec<Run>,
+    pub(super) a: Vec<ReferenceSpans>,
+    pub(super) b: Vec<ReferenceSpans>,
     /// Whether the first chain should rather be walked with the outline: as the first edge was drawn.
     pub(super) with: bool,
 }
 
 /// A reference whose edge was found.
-struct Found {
+struct FoundEdge {
     reference: Reference,
     draft: usize,
     from: f64,
@@ -104,7 +105,7 @@ impl Source<'_> {
         })
     }
 
-    fn find_all(&self, seam: &SeamFile, chain: &[super::Located<String>], findings: &mut Findings) -> Vec<Found> {
+    fn find_all(&self, seam: &SeamFile, chain: &[super::Located<String>], findings: &mut Findings) -> Vec<FoundEdge> {
         let mut found = Vec::new();
         for written in chain {
             match Reference::parse(written).and_then(|r| self.find(seam, r)) {
@@ -115,7 +116,7 @@ impl Source<'_> {
         found
     }
 
-    fn find(&self, seam: &SeamFile, reference: Reference) -> Result<Found, Problem> {
+    fn find(&self, seam: &SeamFile, reference: Reference) -> Result<FoundEdge, Problem> {
         let draft = self.drafts.iter().position(|d| d.name == reference.piece);
         let draft = draft.ok_or_else(|| unknown_piece(&reference.piece, self.pieces.iter().copied()))?;
         let drawn = &self.drafts[draft];
@@ -128,18 +129,18 @@ impl Source<'_> {
         if edge.stretches(from, to).is_empty() {
             return Err(Problem::RangeEmpty(reference.text));
         }
-        Ok(Found { reference, draft, from, to })
+        Ok(FoundEdge { reference, draft, from, to })
     }
 
-    fn freedom(&self, found: &Found) -> Freedom {
+    fn freedom(&self, found: &FoundEdge) -> Freedom {
         match self.drafts[found.draft].cut {
-            Cut::Pair | Cut::Fold(_) if found.reference.side.is_none() => Freedom::Sides,
-            Cut::Count(n) if found.reference.copy.is_none() => Freedom::Copies(n),
+            CutKind::Pair | CutKind::Fold(_) if found.reference.side.is_none() => Freedom::Sides,
+            CutKind::Count(n) if found.reference.copy.is_none() => Freedom::Copies(n),
             _ => Freedom::Fixed,
         }
     }
 
-    fn matched<'f>(&self, seam: &'f SeamFile, a: &[Found], b: &[Found]) -> Built<'f> {
+    fn matched<'f>(&self, seam: &'f SeamFile, a: &[FoundEdge], b: &[FoundEdge]) -> Built<'f> {
         let freedoms: Vec<Freedom> = a.iter().chain(b).map(|f| self.freedom(f)).collect();
         let alike = freedoms.windows(2).all(|w| w[0] == w[1]);
         let choices = match freedoms.first() {
@@ -163,10 +164,10 @@ impl Source<'_> {
     }
 
     /// Adds the doubt that the partner of an edge on both sides should be a pair.
-    fn or_a_pair(&self, (at, mut problem): Located, other: &[Found]) -> Located {
+    fn or_a_pair(&self, (at, mut problem): Located, other: &[FoundEdge]) -> Located {
         if let Problem::WhichSide { choice, .. } = &mut problem
-            && let [Found { draft, .. }] = other
-            && self.drafts[*draft].cut == Cut::One
+            && let [FoundEdge { draft, .. }] = other
+            && self.drafts[*draft].cut == CutKind::One
         {
             choice.push_str(&format!(", or cut '{}' as a pair (cut: pair)", self.drafts[*draft].name));
         }
@@ -174,7 +175,12 @@ impl Source<'_> {
     }
 
     /// The runs of a chain, and whether its first edge runs as drawn.
-    fn runs(&self, seam: &SeamFile, chain: &[Found], choice: Choice) -> Result<(bool, Vec<Run>), Located> {
+    fn runs(
+        &self,
+        seam: &SeamFile,
+        chain: &[FoundEdge],
+        choice: Choice,
+    ) -> Result<(bool, Vec<ReferenceSpans>), Located> {
         let mut runs = Vec::new();
         let mut with = true;
         for (i, found) in chain.iter().enumerate() {
@@ -186,13 +192,13 @@ impl Source<'_> {
             for instance in instances {
                 spans.extend(self.spans(seam, found, instance).map_err(|p| (found.reference.at, p))?);
             }
-            runs.push(Run { text: found.reference.text.clone(), spans });
+            runs.push(ReferenceSpans { text: found.reference.text.clone(), spans });
         }
         Ok((with, runs))
     }
 
     /// The pieces or halves a reference means, in the order of the outline.
-    fn instances(&self, seam: &SeamFile, found: &Found, choice: Choice) -> Result<Vec<&Instance>, Problem> {
+    fn instances(&self, seam: &SeamFile, found: &FoundEdge, choice: Choice) -> Result<Vec<&Instance>, Problem> {
         let reference = &found.reference;
         let drawn = &self.drafts[found.draft];
         let (side, copy) = match (self.freedom(found), choice) {
@@ -211,7 +217,7 @@ impl Source<'_> {
     }
 
     /// Both halves of an edge that ends on the fold.
-    fn across_fold(&self, seam: &SeamFile, found: &Found) -> Result<Vec<&Instance>, Problem> {
+    fn across_fold(&self, seam: &SeamFile, found: &FoundEdge) -> Result<Vec<&Instance>, Problem> {
         let (drawn, reference) = (&self.drafts[found.draft], &found.reference);
         let halves: Vec<&Instance> = self.cut.instances.iter().filter(|i| i.draft == found.draft).collect();
         let count = drawn.rings[0].len();
@@ -226,7 +232,7 @@ impl Source<'_> {
                 return Ok(halves.into_iter().rev().collect());
             }
         }
-        let named = |side: Side| format!("{}.{}.{}", drawn.name, side.letter(), reference.edge);
+        let named = |side: Side| format!("{}{}.{}", drawn.name, side.suffix(), reference.edge);
         Err(Problem::WhichSide {
             seam: seam.name.value.clone(),
             reference: reference.text.clone(),
@@ -234,7 +240,7 @@ impl Source<'_> {
         })
     }
 
-    fn spans(&self, seam: &SeamFile, found: &Found, on: &Instance) -> Result<Vec<Span>, Problem> {
+    fn spans(&self, seam: &SeamFile, found: &FoundEdge, on: &Instance) -> Result<Vec<Span>, Problem> {
         let drawn = &self.drafts[found.draft];
         let stretches = drawn.find(&found.reference.edge).map(|n| n.stretches(found.from, found.to));
         let spans: Option<Vec<Span>> = stretches.unwrap_or_default().into_iter().map(|s| on.span(drawn, s)).collect();
@@ -245,24 +251,26 @@ impl Source<'_> {
         Ok(if on.mirrored { turned(&spans) } else { spans })
     }
 
-    fn mirrored<'f>(&self, seam: &'f SeamFile, chain: &[Found]) -> Built<'f> {
+    fn mirrored<'f>(&self, seam: &'f SeamFile, chain: &[FoundEdge]) -> Built<'f> {
         for found in chain {
             let drawn = &self.drafts[found.draft];
-            if !matches!(drawn.cut, Cut::Pair | Cut::Fold(_)) {
+            if !matches!(drawn.cut, CutKind::Pair | CutKind::Fold(_)) {
                 let (seam, piece) = (seam.name.value.clone(), drawn.name.clone());
                 return Err((found.reference.at, Problem::NoMirror { seam, piece }));
             }
         }
         // On the fold the cloth goes on: its edge is joined to its mirror image already.
-        let on_fold = |f: &Found| {
+        let on_fold = |f: &FoundEdge| {
             let drawn = &self.drafts[f.draft];
             drawn.fold.is_some_and(|fold| drawn.find(&f.reference.edge).is_some_and(|n| n.parts[0].edge == (0, fold)))
         };
         let Some(first) = chain.first().filter(|_| !chain.iter().all(on_fold)) else { return Ok(Vec::new()) };
         let side = first.reference.side.unwrap_or(self.drafts[first.draft].drawn);
         let (with, a) = self.runs(seam, chain, Choice::Side(side))?;
-        let other: Vec<Found> =
-            chain.iter().map(|f| Found { reference: Reference { side: None, ..f.reference.clone() }, ..*f }).collect();
+        let other: Vec<FoundEdge> = chain
+            .iter()
+            .map(|f| FoundEdge { reference: Reference { side: None, ..f.reference.clone() }, ..*f })
+            .collect();
         let (_, b) = self.runs(seam, &other, Choice::Side(side.other()))?;
         Ok(vec![Candidate { file: seam, name: seam.name.value.clone(), a, b, with }])
     }

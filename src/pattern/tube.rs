@@ -18,7 +18,7 @@ pub(super) fn is_tube(chain: &[Span], rims: &Rims, sewn: &Identities) -> bool {
 
 /// Positions of the ends of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ends {
+pub(super) enum EndPlaces {
     /// Above its middle, as drawn.
     Above,
     /// Beside it.
@@ -28,7 +28,7 @@ pub(super) enum Ends {
 }
 
 /// Positions of the ends of a chain, with its pieces one after the other as they are sewn.
-pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> Ends {
+pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> EndPlaces {
     let length: f64 = chain.iter().map(Span::length).sum();
     let (mut walked, mut height, mut middle) = (0.0, 0.0, 0.0);
     for span in chain {
@@ -45,8 +45,8 @@ pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> Ends {
     }
     // y points down.
     match (0.5 * height - middle) / length {
-        low if low > CLEARLY => Ends::Below,
-        low if low < -CLEARLY => Ends::Above,
-        _ => Ends::Level,
+        low if low > CLEARLY => EndPlaces::Below,
+        low if low < -CLEARLY => EndPlaces::Above,
+        _ => EndPlaces::Level,
     }
 }

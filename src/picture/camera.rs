@@ -101,7 +101,7 @@ pub(super) fn cameras_above(shapes: &[&[Vec3]], [width, height]: [usize; 2]) -> 
 
 /// The views of a layout, at one scale and as large as the paper allows.
 pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh, layout: &PictureLayout) -> Vec<Camera> {
-    let camera = |view: &super::View| Camera::looking_from(view.label(), view.yaw(), LOOK_DOWN);
+    let camera = |view: &super::ViewSide| Camera::looking_from(view.label(), view.yaw(), LOOK_DOWN);
     let mut cameras: Vec<Camera> = layout.views.iter().map(camera).collect();
     let count = cameras.len();
     let framed = framed(body, cloth);

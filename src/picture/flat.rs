@@ -4,7 +4,7 @@ use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER, RIM, strain};
 use super::paint::limit;
 use super::places::places;
-use super::raster::{Band, Corner, NO_CLOTH, SAMPLES};
+use super::raster::{NO_CLOTH, PanelRows, SAMPLES, ScreenCorner};
 use super::view::legend;
 use super::{HEIGHT, PictureError, Scale, WIDTH, encode};
 use crate::geometry::{Vec2, box_or_origin};
@@ -42,7 +42,7 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
             let color = strain((values[t] / limit) as f32);
             let corner = |v: u32| {
                 let [x, y] = at(k, v);
-                Corner { at: [x * SAMPLES as f32, y * SAMPLES as f32, 0.0], color }
+                ScreenCorner { at: [x * SAMPLES as f32, y * SAMPLES as f32, 0.0], color }
             };
             shapes.push(cloth.triangles[t].map(corner));
         }
@@ -50,9 +50,9 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
     let mut canvas = Canvas::new(WIDTH, HEIGHT, PAPER);
     for top in (HEAD..HEIGHT).step_by(BAND) {
         let rows = BAND.min(HEIGHT - top);
-        let mut band = Band::new(WIDTH * SAMPLES, top * SAMPLES, rows * SAMPLES);
+        let mut band = PanelRows::new(WIDTH * SAMPLES, top * SAMPLES, rows * SAMPLES);
         let (first, last) = ((top * SAMPLES) as f32, ((top + rows) * SAMPLES) as f32);
-        let meets = |s: &&[Corner; 3]| s.iter().any(|c| c.at[1] <= last) && s.iter().any(|c| c.at[1] >= first);
+        let meets = |s: &&[ScreenCorner; 3]| s.iter().any(|c| c.at[1] <= last) && s.iter().any(|c| c.at[1] >= first);
         shapes.iter().filter(meets).for_each(|shape| band.triangle(shape, NO_CLOTH));
         canvas.paste(0, top, WIDTH, &band.pixels());
     }

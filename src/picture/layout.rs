@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A side from which the garment is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum View {
+pub enum ViewSide {
     /// From before the wearer.
     Front,
     /// From the wearer's left.
@@ -17,7 +17,7 @@ pub enum View {
     Right,
 }
 
-impl View {
+impl ViewSide {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Front, Self::Side, Self::Left, Self::Back, Self::Right];
 
@@ -49,7 +49,7 @@ pub struct PictureLayout {
     /// Width and height, pixels. At least [`PictureLayout::SMALLEST`].
     pub size: [usize; 2],
     /// Its views from left to right. One or more.
-    pub views: Vec<View>,
+    pub views: Vec<ViewSide>,
 }
 
 impl PictureLayout {
@@ -61,6 +61,6 @@ impl PictureLayout {
 
 impl Default for PictureLayout {
     fn default() -> Self {
-        Self { size: [super::WIDTH, super::HEIGHT], views: vec![View::Front, View::Side, View::Back] }
+        Self { size: [super::WIDTH, super::HEIGHT], views: vec![ViewSide::Front, ViewSide::Side, ViewSide::Back] }
     }
 }

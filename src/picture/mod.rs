@@ -27,7 +27,7 @@ mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
-pub use layout::{PictureLayout, View};
+pub use layout::{PictureLayout, ViewSide};
 pub use pattern::{PatternEdge, PatternPiece, draw_pattern, seam_color};
 pub use shadow::draw_shadow;
 pub use sheet::{Specimen, draw_sheet};

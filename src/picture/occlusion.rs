@@ -18,12 +18,12 @@ const LIFT: f64 = 0.011;
 
 /// Depth maps from all directions.
 pub(super) struct Surroundings {
-    maps: Vec<Map>,
+    maps: Vec<DepthMap>,
     lift: f64,
 }
 
 /// The scene seen from far away.
-struct Map {
+struct DepthMap {
     toward: Vec3,
     right: Vec3,
     up: Vec3,
@@ -40,7 +40,7 @@ impl Surroundings {
         let center = (lo + hi) / 2.0;
         let radius = points().map(|p| (p - center).norm()).fold(SMALLEST, f64::max);
         let map = |k: usize| {
-            let mut map = Map::new(direction(k), center, 0.5 * (CELLS as f64 - 2.0) / radius);
+            let mut map = DepthMap::new(direction(k), center, 0.5 * (CELLS as f64 - 2.0) / radius);
             meshes.iter().for_each(|m| map.add(m));
             map
         };
@@ -75,7 +75,7 @@ fn direction(k: usize) -> Vec3 {
     Vec3::new(across * cos, height, across * sin)
 }
 
-impl Map {
+impl DepthMap {
     fn new(toward: Vec3, center: Vec3, scale: f64) -> Self {
         let aside = if toward.y.abs() < 0.9 { Vec3::y() } else { Vec3::x() };
         let right = aside.cross(&toward).normalize();

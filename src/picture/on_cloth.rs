@@ -7,7 +7,7 @@ use super::color::Rgb;
 use crate::geometry::Vec3;
 
 /// A straight piece of a line.
-pub(super) struct Line {
+pub(super) struct LineSegment {
     pub(super) ends: [Vec3; 2],
     /// Half its width, pixels.
     pub(super) radius: f32,
@@ -20,12 +20,12 @@ pub(super) struct Line {
 }
 
 /// All lines, each kind with half its width and its colour, drawn as if nearer by `lift`, metres.
-pub(super) fn lines(scene: &Scene, kinds: &[(&[Vec<Vec3>], f32, Rgb)], lift: f32) -> Vec<Line> {
+pub(super) fn lines(scene: &Scene, kinds: &[(&[Vec<Vec3>], f32, Rgb)], lift: f32) -> Vec<LineSegment> {
     let cloth = Neighbours::new(scene);
     let mut out = Vec::new();
     for &(courses, radius, color) in kinds {
         for ends in courses.iter().flat_map(|course| course.windows(2)).map(|w| [w[0], w[1]]) {
-            out.push(Line { ends, radius, color, lift, around: cloth.around(scene, &ends) });
+            out.push(LineSegment { ends, radius, color, lift, around: cloth.around(scene, &ends) });
         }
     }
     out

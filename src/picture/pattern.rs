@@ -3,7 +3,7 @@
 
 use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER, RIM, Rgb, opening};
-use super::places::{Place, places};
+use super::places::{BoxPlace, places};
 use super::{HEIGHT, PictureError, WIDTH, encode};
 use crate::geometry::{MM, Path, Vec2, box_or_origin};
 
@@ -86,7 +86,7 @@ pub fn seam_color(k: usize) -> [u8; 3] {
 
 /// Where a piece is shown.
 struct Shown<'a> {
-    place: &'a Place,
+    place: &'a BoxPlace,
     scale: f64,
 }
 

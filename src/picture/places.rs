@@ -9,13 +9,13 @@ const MARGIN: f64 = 50.0;
 const GAP: f64 = 0.08;
 
 /// Where the upper left corner of a piece's box is, and where it is drawn.
-pub(super) struct Place {
+pub(super) struct BoxPlace {
     pub(super) from: Vec2,
     pub(super) to: Vec2,
 }
 
 /// Pieces given by their boxes in rows, as large as they fit between two rows of pixels; pixels per metre.
-pub(super) fn places(boxes: &[[Vec2; 2]], top: usize, bottom: usize) -> (Vec<Place>, f64) {
+pub(super) fn places(boxes: &[[Vec2; 2]], top: usize, bottom: usize) -> (Vec<BoxPlace>, f64) {
     let sizes: Vec<Vec2> = boxes.iter().map(|[low, high]| high - low).collect();
     let gap = GAP * sizes.iter().map(|s| s.max()).fold(f64::MIN_POSITIVE, f64::max);
     let room = Vec2::new(WIDTH as f64, (bottom - top) as f64) - Vec2::repeat(2.0 * MARGIN);
@@ -33,7 +33,7 @@ pub(super) fn places(boxes: &[[Vec2; 2]], top: usize, bottom: usize) -> (Vec<Pla
     let mut at = Vec2::new(MARGIN, top as f64 + MARGIN);
     for row in (0..sizes.len()).collect::<Vec<_>>().chunks(best) {
         for &k in row {
-            places.push(Place { from: boxes[k][0], to: at });
+            places.push(BoxPlace { from: boxes[k][0], to: at });
             at.x += (sizes[k].x + gap) * scale;
         }
         at.x = MARGIN;

@@ -7,7 +7,7 @@ pub(super) const SAMPLES: usize = 2;
 
 /// A projected corner: column and row in samples, nearness in metres, and its displayed colour.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct ScreenCorner {
     pub(super) at: [f32; 3],
     pub(super) color: Rgb,
 }
@@ -16,7 +16,7 @@ pub(super) struct Corner {
 pub(super) const NO_CLOTH: u32 = u32::MAX;
 
 /// A piece of a drawn line, in samples.
-pub(super) struct Stroke<'a> {
+pub(super) struct LinePiece<'a> {
     pub(super) ends: [[f32; 3]; 2],
     pub(super) radius: f32,
     pub(super) color: Rgb,
@@ -27,7 +27,7 @@ pub(super) struct Stroke<'a> {
 }
 
 /// Some rows of a panel, in samples.
-pub(super) struct Band {
+pub(super) struct PanelRows {
     width: usize,
     first_row: usize,
     rows: usize,
@@ -36,7 +36,7 @@ pub(super) struct Band {
     color: Vec<[u8; 4]>,
 }
 
-impl Band {
+impl PanelRows {
     /// An empty band: paper, infinitely far.
     pub(super) fn new(width: usize, first_row: usize, rows: usize) -> Self {
         let [r, g, b] = PAPER.map(byte);
@@ -61,13 +61,13 @@ impl Band {
     }
 
     /// Fills a triangle, number `cloth` of the cloth, where it is nearer than the present content.
-    pub(super) fn triangle(&mut self, corners: &[Corner; 3], cloth: u32) {
+    pub(super) fn triangle(&mut self, corners: &[ScreenCorner; 3], cloth: u32) {
         let [a, b, c] = corners.map(|c| c.at);
         let lo = [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])];
         let hi = [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1])];
         let Some([x0, x1, y0, y1]) = self.window(lo, hi) else { return };
         let Some([wb, wc]) = weights(corners) else { return };
-        let plane = |k: fn(&Corner) -> f32| plane([wb, wc], corners.map(|c| k(&c)));
+        let plane = |k: fn(&ScreenCorner) -> f32| plane([wb, wc], corners.map(|c| k(&c)));
         let depth = plane(|c| c.at[2]);
         let tint = [plane(|c| c.color[0]), plane(|c| c.color[1]), plane(|c| c.color[2])];
         for y in y0..=y1 {
@@ -91,8 +91,8 @@ impl Band {
     }
 
     /// Draws a straight stroke with round ends where nothing hides it. `cloth` are the triangles of the cloth.
-    pub(super) fn stroke(&mut self, stroke: &Stroke, cloth: &[([Corner; 3], u32)]) {
-        let &Stroke { ends: [a, b], radius, color, around, lift } = stroke;
+    pub(super) fn stroke(&mut self, stroke: &LinePiece, cloth: &[([ScreenCorner; 3], u32)]) {
+        let &LinePiece { ends: [a, b], radius, color, around, lift } = stroke;
         let lo = [a[0].min(b[0]) - radius, a[1].min(b[1]) - radius];
         let hi = [a[0].max(b[0]) + radius, a[1].max(b[1]) + radius];
         let Some([x0, x1, y0, y1]) = self.window(lo, hi) else { return };
@@ -144,7 +144,7 @@ impl Band {
 
 /// Growth of the shares of the second and the third corner along columns and rows, from the first corner, where both
 /// are 0.
-fn weights(corners: &[Corner; 3]) -> Option<[[f32; 2]; 2]> {
+fn weights(corners: &[ScreenCorner; 3]) -> Option<[[f32; 2]; 2]> {
     let [a, b, c] = corners.map(|c| c.at);
     let double_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     let slope = |p: [f32; 3], q: [f32; 3]| [(q[1] - p[1]) / double_area, (p[0] - q[0]) / double_area];
@@ -159,7 +159,7 @@ fn plane([wb, wc]: [[f32; 2]; 2], [at_a, at_b, at_c]: [f32; 3]) -> [f32; 3] {
 
 /// Nearness of a triangle's plane at `p`, which is beside the sample that shows it. On cloth seen at a slant the two
 /// differ by more than layers do. It is no nearer than the nearest corner, because the plane ends with the triangle.
-fn nearness_at(corners: &[Corner; 3], p: [f32; 2]) -> f32 {
+fn nearness_at(corners: &[ScreenCorner; 3], p: [f32; 2]) -> f32 {
     let nearest = corners.iter().map(|c| c.at[2]).fold(f32::NEG_INFINITY, f32::max);
     let at = corners[0].at;
     let here = weights(corners).map(|w| plane(w, corners.map(|c| c.at[2])));

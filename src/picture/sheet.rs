@@ -4,7 +4,7 @@ use super::camera::cameras_above;
 use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER};
 use super::paint::Paint;
-use super::view::{Lit, Panel, paste, scale_bar};
+use super::view::{Lit, PicturePanel, paste, scale_bar};
 use super::{PictureError, Scene, WIDTH, can_be_framed, encode, rim_lines};
 use crate::geometry::{TriMesh, Vec3};
 
@@ -54,8 +54,9 @@ pub fn draw_sheet(title: &str, subtitle: &str, specimens: &[Specimen]) -> Result
     let rims: Vec<_> = specimens.iter().map(|s| rim_lines(s.cloth)).collect();
     let scenes: Vec<Scene> = specimens.iter().zip(&rims).map(|(s, rims)| scene(s, rims)).collect();
     let lit: Vec<Lit> = scenes.iter().map(Lit::new).collect();
-    let panels: Vec<Panel> =
-        (0..scenes.len()).map(|k| Panel::new(&scenes[k], &lit[k], &Paint::new(&scenes[k]), &cameras[k])).collect();
+    let panels: Vec<PicturePanel> = (0..scenes.len())
+        .map(|k| PicturePanel::new(&scenes[k], &lit[k], &Paint::new(&scenes[k]), &cameras[k]))
+        .collect();
     let mut canvas = Canvas::new(WIDTH, HEAD + rows * (size[1] + NAME), PAPER);
     paste(&mut canvas, &panels);
     for (specimen, camera) in specimens.iter().zip(&cameras) {

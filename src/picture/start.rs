@@ -6,7 +6,7 @@ use super::color::{AXIS, INK, PALE_INK, PAPER, opening};
 use super::on_cloth::lines;
 use super::paint::Paint;
 use super::raster::byte;
-use super::view::{LINE_LIFT, Lit, Panel, paste, words};
+use super::view::{LINE_LIFT, Lit, PicturePanel, paste, words};
 use super::{HEIGHT, PictureError, PictureLayout, Scene, WIDTH, can_be_framed, encode};
 use crate::geometry::{TriMesh, Vec3};
 
@@ -57,7 +57,7 @@ pub fn draw_start(scene: &Scene, marks: &StartMarks) -> Result<Vec<u8>, PictureE
     lit.lines.extend(lines(scene, &[(marks.axes, SHINE_RADIUS, AXIS)], SHINE_LIFT));
     let paint = Paint::new(scene);
     let cameras = cameras(scene.body, scene.cloth, &PictureLayout::default());
-    let panels: Vec<Panel> = cameras.iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
+    let panels: Vec<PicturePanel> = cameras.iter().map(|c| PicturePanel::new(scene, &lit, &paint, c)).collect();
     let rows = marks.openings.len() + marks.notes.len() + 1;
     let mut canvas = Canvas::new(WIDTH, HEIGHT + rows * LINE, PAPER);
     paste(&mut canvas, &panels);

@@ -4,7 +4,7 @@ use super::camera::cameras_round;
 use super::canvas::Canvas;
 use super::color::PAPER;
 use super::paint::Paint;
-use super::view::{Lit, Panel, paste};
+use super::view::{Lit, PicturePanel, paste};
 use super::{PictureError, Scene, check};
 
 /// Frames of a turn.
@@ -34,7 +34,7 @@ pub fn draw_turning(scene: &Scene, format: Turning) -> Result<Vec<u8>, PictureEr
     let (paint, lit) = (Paint::new(scene), Lit::new(scene));
     let frame = |camera| {
         let mut canvas = Canvas::new(SIZE[0], SIZE[1], PAPER);
-        paste(&mut canvas, &[Panel::new(scene, &lit, &paint, &camera)]);
+        paste(&mut canvas, &[PicturePanel::new(scene, &lit, &paint, &camera)]);
         canvas.rgb
     };
     let frames: Vec<Vec<u8>> = cameras_round(scene.body, scene.cloth, FRAMES, SIZE).into_iter().map(frame).collect();

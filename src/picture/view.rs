@@ -9,9 +9,9 @@ use super::canvas::Canvas;
 use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, piece};
 use super::light::Lights;
 use super::occlusion::Surroundings;
-use super::on_cloth::{Line, lines};
+use super::on_cloth::{LineSegment, lines};
 use super::paint::Paint;
-use super::raster::{Band, Corner, NO_CLOTH, SAMPLES, Stroke};
+use super::raster::{LinePiece, NO_CLOTH, PanelRows, SAMPLES, ScreenCorner};
 use super::{PictureLayout, Scale, Scene, WIDTH};
 use crate::geometry::{TriMesh, Vec3};
 
@@ -39,7 +39,7 @@ pub(super) fn render(scene: &Scene, layout: &PictureLayout) -> Canvas {
     let paint = Paint::new(scene);
     let lit = Lit::new(scene);
     let cameras = cameras(scene.body, scene.cloth, layout);
-    let panels: Vec<Panel> = cameras.par_iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
+    let panels: Vec<PicturePanel> = cameras.par_iter().map(|c| PicturePanel::new(scene, &lit, &paint, c)).collect();
     let mut canvas = Canvas::new(layout.size[0], layout.size[1], PAPER);
     paste(&mut canvas, &panels);
     words(&mut canvas, scene, &cameras, &paint, layout.size[1]);
@@ -47,8 +47,8 @@ pub(super) fn render(scene: &Scene, layout: &PictureLayout) -> Canvas {
 }
 
 /// Draws panels onto the canvas.
-pub(super) fn paste(canvas: &mut Canvas, panels: &[Panel]) {
-    let bands: Vec<(&Panel, usize)> =
+pub(super) fn paste(canvas: &mut Canvas, panels: &[PicturePanel]) {
+    let bands: Vec<(&PicturePanel, usize)> =
         panels.iter().flat_map(|p| (0..p.triangle_bands.len()).map(move |b| (p, b))).collect();
     let pixels: Vec<Vec<u8>> = bands.par_iter().map(|(panel, b)| panel.band(*b)).collect();
     for ((panel, b), pixels) in bands.iter().zip(&pixels) {
@@ -65,7 +65,7 @@ pub(super) struct Lit {
     cloth_seen: [Vec<f32>; 2],
     floor: TriMesh,
     floor_seen: Vec<f32>,
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<LineSegment>,
 }
 
 impl Lit {
@@ -107,27 +107,27 @@ fn floor(scene: &Scene) -> TriMesh {
 }
 
 /// Everything one view shows, projected, and sorted into bands.
-pub(super) struct Panel<'a> {
+pub(super) struct PicturePanel<'a> {
     /// First column and row on the canvas, and size, pixels.
     left: usize,
     top: usize,
     width: usize,
     height: usize,
     /// With the triangle of the cloth each one is. Those are the last.
-    triangles: Vec<([Corner; 3], u32)>,
+    triangles: Vec<([ScreenCorner; 3], u32)>,
     first_cloth: usize,
-    strokes: Vec<Stroke<'a>>,
+    strokes: Vec<LinePiece<'a>>,
     triangle_bands: Vec<Vec<u32>>,
     stroke_bands: Vec<Vec<u32>>,
 }
 
-impl<'a> Panel<'a> {
+impl<'a> PicturePanel<'a> {
     pub(super) fn new(scene: &Scene, lit: &'a Lit, paint: &Paint, camera: &Camera) -> Self {
         let around = floor_triangles(lit, camera).into_iter().chain(body_triangles(scene, lit, camera));
         let mut triangles: Vec<_> = around.map(|corners| (corners, NO_CLOTH)).collect();
         let first_cloth = triangles.len();
         triangles.extend(cloth_triangles(scene, lit, paint, camera).into_iter().zip(0..));
-        let strokes: Vec<Stroke> = lit.lines.iter().map(|line| stroke(line, camera)).collect();
+        let strokes: Vec<LinePiece> = lit.lines.iter().map(|line| stroke(line, camera)).collect();
         let rows = |at: &[[f32; 3]], radius: f32| {
             let y = at.iter().map(|p| p[1]);
             (y.clone().fold(f32::INFINITY, f32::min) - radius, y.fold(f32::NEG_INFINITY, f32::max) + radius)
@@ -141,7 +141,7 @@ impl<'a> Panel<'a> {
     /// Pixels of a band.
     fn band(&self, index: usize) -> Vec<u8> {
         let rows = band_rows(self.height, index);
-        let mut band = Band::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
+        let mut band = PanelRows::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
         for &t in &self.triangle_bands[index] {
             let (corners, cloth) = &self.triangles[t as usize];
             band.triangle(corners, *cloth);
@@ -182,9 +182,9 @@ fn in_samples(camera: &Camera, p: &Vec3) -> [f32; 3] {
 }
 
 /// The floor: paper, darker where little sky is seen, fading into the paper towards its edge.
-fn floor_triangles(lit: &Lit, camera: &Camera) -> Vec<[Corner; 3]> {
+fn floor_triangles(lit: &Lit, camera: &Camera) -> Vec<[ScreenCorner; 3]> {
     let reach = lit.floor.vertices.iter().map(|p| p.x).fold(f64::MIN_POSITIVE, f64::max);
-    let corners: Vec<Corner> = lit
+    let corners: Vec<ScreenCorner> = lit
         .floor
         .vertices
         .iter()
@@ -192,24 +192,24 @@ fn floor_triangles(lit: &Lit, camera: &Camera) -> Vec<[Corner; 3]> {
         .map(|(p, seen)| {
             let fade = (1.0 - (p.x.hypot(p.z) / reach).powi(2)).max(0.0) as f32;
             let shade = 1.0 - 0.42 * fade * (1.0 - seen);
-            Corner { at: in_samples(camera, p), color: PAPER.map(|x| x * shade) }
+            ScreenCorner { at: in_samples(camera, p), color: PAPER.map(|x| x * shade) }
         })
         .collect();
     lit.floor.triangles.iter().map(|t| t.map(|v| corners[v as usize])).collect()
 }
 
-fn body_triangles(scene: &Scene, lit: &Lit, camera: &Camera) -> Vec<[Corner; 3]> {
+fn body_triangles(scene: &Scene, lit: &Lit, camera: &Camera) -> Vec<[ScreenCorner; 3]> {
     let lights = Lights::new(camera);
-    let corner = |v: usize| Corner {
+    let corner = |v: usize| ScreenCorner {
         at: in_samples(camera, &scene.body.vertices[v]),
         color: times(BODY, lights.on(&lit.body_normals[v], lit.body_seen[v])),
     };
-    let corners: Vec<Corner> = (0..scene.body.vertices.len()).map(corner).collect();
+    let corners: Vec<ScreenCorner> = (0..scene.body.vertices.len()).map(corner).collect();
     let toward = (0..scene.body.triangles.len()).filter(|&t| scene.body.double_normal(t).dot(&camera.toward) > 0.0);
     toward.map(|t| scene.body.triangles[t].map(|v| corners[v as usize])).collect()
 }
 
-fn cloth_triangles(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Vec<[Corner; 3]> {
+fn cloth_triangles(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Vec<[ScreenCorner; 3]> {
     let lights = Lights::new(camera);
     let count = scene.cloth.vertices.len();
     let at: Vec<[f32; 3]> = scene.cloth.vertices.iter().map(|p| in_samples(camera, p)).collect();
@@ -220,7 +220,7 @@ fn cloth_triangles(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> 
         let light = if right_side { &right } else { &wrong };
         let paint = paint.corners(scene, t, right_side);
         let vertices = scene.cloth.triangles[t].map(|v| v as usize);
-        [0, 1, 2].map(|k| Corner { at: at[vertices[k]], color: times(paint[k], light[vertices[k]]) })
+        [0, 1, 2].map(|k| ScreenCorner { at: at[vertices[k]], color: times(paint[k], light[vertices[k]]) })
     };
     (0..scene.cloth.triangles.len()).map(triangle).collect()
 }
@@ -229,9 +229,9 @@ fn times(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-fn stroke<'a>(line: &'a Line, camera: &Camera) -> Stroke<'a> {
+fn stroke<'a>(line: &'a LineSegment, camera: &Camera) -> LinePiece<'a> {
     let ends = line.ends.map(|p| in_samples(camera, &p));
-    Stroke { ends, radius: line.radius * SAMPLES as f32, color: line.color, around: &line.around, lift: line.lift }
+    LinePiece { ends, radius: line.radius * SAMPLES as f32, color: line.color, around: &line.around, lift: line.lift }
 }
 
 /// Title, names of the views, scale, legend.

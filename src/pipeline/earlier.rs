@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{Closed, is_whole};
-use super::results::{GARMENT_OBJ, REPORT_JSON, SEWN_OBJ};
 use super::run::Run;
 use crate::contact::Collider;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::input::bytes;
 use crate::io::obj_read::{ObjFaces, parse_obj_faces, read_obj_faces};
+use crate::io::result_names::{GARMENT_OBJ, REPORT_JSON, SEWN_OBJ};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, EarlierMesh, EarlierPiece, Edges, PieceMesh, interpolated};
 use crate::report::{ContinuedFrom, Report};
@@ -102,7 +102,7 @@ impl Earlier {
         Ok(Self { folder: folder.to_owned(), mesh, at })
     }
 
-    /// What a run of this process has reached, whether the garment is draped or only sewn. `None` before sewing.
+    /// The state that a run of this process has reached: the garment draped, or only sewn. `None` before sewing.
     pub fn of(run: &Run) -> Option<Self> {
         let mesh = &run.job.mesh;
         let piece = |p: &PieceMesh| EarlierPiece {

@@ -20,7 +20,7 @@ const SKIN: f64 = 0.2;
 /// A piece that is strained this much more than the garment as it hangs is strained by the change.
 const MORE: f64 = 1.05;
 
-/// What is asked of a changed form.
+/// The request for a changed form.
 #[derive(Clone, Copy, Debug)]
 pub struct FormAsked<'a> {
     /// Text of the garment file.
@@ -32,7 +32,7 @@ pub struct FormAsked<'a> {
     /// Drapes of new patterns. With 0 nothing is draped, and the pattern has the strain of the form's own cloth.
     pub rounds: usize,
     /// How pieces are laid flat.
-    pub options: flatten::Options,
+    pub options: flatten::FlattenOptions,
 }
 
 /// A new garment file.
@@ -64,7 +64,7 @@ impl<'a> Chart<'a> {
 }
 
 /// A changed form while its pattern is looked for.
-struct Search<'a> {
+struct FormSearch<'a> {
     job: &'a Job,
     asked: &'a FormAsked<'a>,
     chart: Chart<'a>,
@@ -96,7 +96,7 @@ impl Run<'_> {
         let own = vec![Vec2::zeros(); wanted.len()];
         let (chart, report) = (Chart::new(&job.mesh), FormReport::default());
         let hanging = Earlier::of(self);
-        let mut search = Search { job, asked, chart, form, hanging, wanted, own, report, best: None };
+        let mut search = FormSearch { job, asked, chart, form, hanging, wanted, own, report, best: None };
         let usual = search.hang(progress)?;
         search.report.strained = search.strained(&self.threads, &usual)?;
         for _ in 0..asked.rounds.max(1) {
@@ -109,7 +109,7 @@ impl Run<'_> {
     }
 }
 
-impl Search<'_> {
+impl FormSearch<'_> {
     /// Drapes the garment as it is drawn, unless nothing is to be draped. Gives the strain of its threads.
     fn hang(&mut self, progress: Progress) -> Result<Vec<[f64; 2]>, PipelineError> {
         if self.asked.rounds == 0 {
@@ -130,7 +130,7 @@ impl Search<'_> {
         if found.is_empty() {
             return Ok(found);
         }
-        let options = flatten::Options { mode: flatten::Mode::Woven, ..self.asked.options };
+        let options = flatten::FlattenOptions { mode: flatten::Mode::Woven, ..self.asked.options };
         let woven = flatten::flatten_garment(&job.mesh, &job.garment.seams, &self.form, &options)?;
         let least = |(own, woven): (&[f64; 2], &flatten::FlatPiece)| {
             let other = [woven.report.threads.warp_p99, woven.report.threads.weft_p99];

@@ -92,14 +92,6 @@ pub fn read(path: &Path) -> Result<Loaded, PipelineError> {
     Ok(garment::read(path)?)
 }
 
-/// Reads and checks a size of a garment file.
-///
-/// # Errors
-/// Every mistake of the file.
-pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, PipelineError> {
-    Ok(garment::read_size(path, size)?)
-}
-
 /// Reads and checks a variant of a garment file: a size, and further alterations.
 ///
 /// # Errors

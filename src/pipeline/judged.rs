@@ -8,8 +8,8 @@ use crate::geometry::{Topology, TriMesh, Vec3, box_of, sorted_pair, triangles_of
 use crate::input::LengthUnit;
 use crate::io::body::{BodyError, read_solid};
 use crate::io::obj_read::read_obj_faces;
-use crate::mannequin::{Place, check_body, load};
-use crate::report::{Seen, look};
+use crate::mannequin::{FilePlace, check_body, load};
+use crate::report::{CrossingsSeen, look};
 
 /// Ratio of the sizes of mesh and body above which the mesh is in another unit.
 const LARGER: f64 = 5.0;
@@ -20,7 +20,7 @@ pub struct Judged {
     /// Number of triangles.
     pub triangles: usize,
     /// The figures and the crossings. Parts are the file's groups.
-    pub seen: Seen,
+    pub seen: CrossingsSeen,
     /// Notes on input that its user may not have meant so, one text each.
     pub notes: Vec<String>,
 }
@@ -101,7 +101,7 @@ fn solid(name: &str, unit: LengthUnit) -> Result<TriMesh, PipelineError> {
         return Ok(read_solid(path, unit)?);
     }
     let mannequin = load(name).map_err(BodyError::from)?;
-    check_body(&mannequin.mesh, Place::millimetres)
+    check_body(&mannequin.mesh, FilePlace::millimetres)
         .map_err(|fault| BodyError::Fault { file: name.to_owned(), fault })?;
     Ok(mannequin.mesh)
 }

@@ -35,18 +35,18 @@ pub struct Checked {
 /// # Errors
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
-    check_size(file, None, spacing)
+    check_variant(file, Variant::default(), spacing)
 }
 
-/// As [`check`], of a size of the garment.
+/// As [`check`], of a variant of the garment.
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_size(file: &Path, size: Option<&str>, spacing: Option<f64>) -> Result<Checked, Refused> {
-    check_examined(file, garment::examine_size(file, size), spacing)
+pub fn check_variant(file: &Path, variant: Variant, spacing: Option<f64>) -> Result<Checked, Refused> {
+    check_examined(file, garment::examine_variant(file, variant), spacing)
 }
 
-/// As [`check`], of a variant of the garment, from the text of a file that need not exist: its name is the garment's,
+/// As [`check_variant`], from the text of a file that need not exist: its name is the garment's,
 /// and other files are looked for in its folder.
 ///
 /// # Errors

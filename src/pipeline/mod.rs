@@ -36,6 +36,7 @@ mod surface;
 mod tight;
 mod too_small;
 
+pub use crate::io::result_names::*;
 use crate::report::AtRest;
 pub use crate::sew::SewError;
 pub use across::Across;
@@ -46,21 +47,17 @@ pub use earlier::{Earlier, EarlierFiles};
 pub use error::PipelineError;
 pub use form::{FormAsked, NewPattern};
 pub use glimpse::{Glimpse, Watch};
-pub use job::{Given, Job, Overrides, inputs, read, read_size, read_variant};
+pub use job::{Given, Job, Overrides, inputs, read, read_variant};
 pub use judged::{Judged, judge};
-pub use material::{Checked, check, check_size, check_text, read_text};
+pub use material::{Checked, check, check_text, check_variant, read_text};
 pub use pattern_picture::pattern_picture;
-pub use problems::{Problem, problems};
-pub use results::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, GARMENT_YAML, PATTERN_SVG, PLACED_OBJ, PictureOptions, REPORT_HTML,
-    REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
-};
+pub use problems::{ResultProblem, problems};
+pub use results::{Color, PictureOptions, ResultFile, json_text};
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
-    CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FLAT_OBJ, FLAT_PNG, FORM_OBJ,
-    FailedReport, FlatCorners, FlatSurface, HalvingReport, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
-    SurfaceReport, Weld, flatten_faces, flatten_surface,
+    CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FailedReport, FlatCorners,
+    FlatSurface, HalvingReport, Limit, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces, flatten_surface,
 };
 pub use too_small::TooSmall;
 

@@ -10,7 +10,7 @@ use crate::report::{ClosureReport, FormReport, Report, restless, verdicts};
 
 /// Something that a maker should know before any figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
+pub struct ResultProblem {
     /// The problem in words, with its place and figures.
     pub text: String,
     /// Whether a bound of the garment is broken.
@@ -19,7 +19,7 @@ pub struct Problem {
 
 /// The problems of a result: stages that did not come to rest, closures that stay open, bunched and tight cloth, then
 /// the bounds that are broken.
-pub fn problems(job: &Job, report: &Report) -> Vec<Problem> {
+pub fn problems(job: &Job, report: &Report) -> Vec<ResultProblem> {
     let mut texts: Vec<String> = restless(&report.stages, AT_REST).iter().map(ToString::to_string).collect();
     texts.extend(report.from.as_ref().filter(|from| from.anew).map(|from| {
         format!("the garment in {} could not be carried over: this one was made from nothing", from.folder)
@@ -29,13 +29,16 @@ pub fn problems(job: &Job, report: &Report) -> Vec<Problem> {
     // A form that has been changed is no drape of the pattern as it is drawn.
     let form = report.form.as_ref().filter(|form| form.is_changed());
     texts.extend(form.is_none().then(|| tight(job, report)).flatten());
-    let mut out: Vec<Problem> = texts.into_iter().map(|text| Problem { text, out_of_bounds: false }).collect();
+    let mut out: Vec<ResultProblem> =
+        texts.into_iter().map(|text| ResultProblem { text, out_of_bounds: false }).collect();
     let mut garment = Cow::Borrowed(&job.garment);
     if form.is_some() {
         garment.to_mut().tests.retain(|test| !matches!(test.bound, Bound::Drape { .. } | Bound::Flatten { .. }));
     }
-    out.extend(report.form.iter().flat_map(FormReport::problems).map(|text| Problem { text, out_of_bounds: true }));
+    out.extend(
+        report.form.iter().flat_map(FormReport::problems).map(|text| ResultProblem { text, out_of_bounds: true }),
+    );
     let broken = verdicts(&garment, report).into_iter().filter(|verdict| !verdict.ok);
-    out.extend(broken.map(|verdict| Problem { text: format!("out of bounds: {verdict}"), out_of_bounds: true }));
+    out.extend(broken.map(|verdict| ResultProblem { text: format!("out of bounds: {verdict}"), out_of_bounds: true }));
     out
 }

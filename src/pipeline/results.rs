@@ -7,29 +7,13 @@ use crate::dynamics::identity_nodes;
 use crate::geometry::Vec3;
 use crate::io::glb_write::{garment_glb, surface_glb};
 use crate::io::obj_write::garment_obj;
+use crate::io::result_names::{
+    GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_HTML, REPORT_JSON, SEWN_OBJ,
+};
 use crate::io::svg_write::pattern_svg;
 use crate::pattern::Notch;
 use crate::picture::{Dressed, PictureError, PictureLayout, Scale, Scene, Turning, draw, draw_turning};
 use crate::report::{Report, page, vertex_strain};
-
-/// The draped garment.
-pub const GARMENT_OBJ: &str = "garment.obj";
-/// The draped garment for 3D programs.
-pub const GARMENT_GLB: &str = "garment.glb";
-/// The pattern of a surface, or of a changed form, as a garment file.
-pub const GARMENT_YAML: &str = "garment.yaml";
-/// The sewn garment, before it was draped.
-pub const SEWN_OBJ: &str = "sewn.obj";
-/// The pieces as they were placed, not sewn yet: written when sewing them fails.
-pub const PLACED_OBJ: &str = "placed.obj";
-/// The flattened pieces.
-pub const PATTERN_SVG: &str = "pattern.svg";
-/// The figures.
-pub const REPORT_JSON: &str = "report.json";
-/// The page.
-pub const REPORT_HTML: &str = "report.html";
-/// The picture.
-pub const GARMENT_PNG: &str = "garment.png";
 
 /// A file's name and contents.
 pub type ResultFile = (&'static str, Vec<u8>);

@@ -40,7 +40,7 @@ pub struct Run<'a> {
     overlaps: Option<Vec<usize>>,
     /// By piece, the strain of its threads from flat to draped: warp, weft.
     pub(super) threads: Vec<[f64; 2]>,
-    /// What a changed form asks of the pattern.
+    /// The change of form that the pattern is to follow.
     pub(super) form: Option<FormReport>,
     stages: Vec<Stage>,
     /// The coarser level from which the garment was sewn. Draping starts with it.
@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// A garment that cannot be sewn, draped or laid flat.
-    pub fn flatten(&mut self, options: &flatten::Options, progress: Progress) -> Result<(), PipelineError> {
+    pub fn flatten(&mut self, options: &flatten::FlattenOptions, progress: Progress) -> Result<(), PipelineError> {
         if self.draped.is_none() {
             self.drape(progress)?;
         }

@@ -12,8 +12,8 @@ use crate::verify::Welded;
 
 impl<'a> Run<'a> {
     /// A run that goes on from the result of an earlier one in `folder`: of the same garment, or of one whose pieces,
-    /// fabrics, body or spacing have been changed since. What that garment did not have is sewn in. If it cannot be
-    /// carried over, the garment is sewn from nothing; the report says so.
+    /// fabrics, body or spacing have been changed since. Pieces that it did not have are sewn in. If it cannot
+    /// be carried over, the garment is sewn from nothing; the report says so.
     ///
     /// # Errors
     /// A file of the folder that is missing or cannot be read.

@@ -132,7 +132,7 @@ struct WornOn<'a> {
 }
 
 /// Start positions of a garment.
-struct Start {
+struct StartPositions {
     at: Vec<Vec3>,
     /// One label per particle, the same for those that are joined.
     weld: Vec<u32>,
@@ -147,12 +147,12 @@ impl WornOn<'_> {
     }
 
     /// As sketched, or else as the pieces are placed.
-    fn start(&self, garment: &Garment, mesh: &ClothMesh, sketch: &mut Sketch) -> Result<Start, PipelineError> {
+    fn start(&self, garment: &Garment, mesh: &ClothMesh, sketch: &mut Sketch) -> Result<StartPositions, PipelineError> {
         let why = not_from_topology(garment, sketch);
         match sketch.at.take().filter(|_| why.is_none()) {
-            Some(at) => Ok(Start { at, weld: Stitching::new(mesh).class, why }),
+            Some(at) => Ok(StartPositions { at, weld: Stitching::new(mesh).class, why }),
             // Every particle stands alone: partners are still apart.
-            None => Ok(Start { at: self.placed(garment, mesh)?, weld: identity_nodes(mesh), why }),
+            None => Ok(StartPositions { at: self.placed(garment, mesh)?, weld: identity_nodes(mesh), why }),
         }
     }
 

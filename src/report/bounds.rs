@@ -151,12 +151,12 @@ fn verdict(garment: &Garment, report: &Report, of: Option<&str>, bound: &Bound) 
             closures(of_kind, kind.as_deref(), *limit).into_iter().collect()
         }
         Bound::Flatten { piece, area, boundary } => {
-            let pieces = Pieces::new(garment, report, "flatten", piece.as_deref(), |q| q.round_trip);
-            pieces.verdicts(*area, boundary.map(Length::Absolute))
+            let pieces = BoundPieces::new(garment, report, "flatten", piece.as_deref(), |q| q.round_trip);
+            pieces.verdicts(*area, boundary.map(RimBound::Absolute))
         }
         Bound::Drape { piece, area, boundary } => {
-            let pieces = Pieces::new(garment, report, "drape", piece.as_deref(), |q| q.drape);
-            pieces.verdicts(*area, boundary.map(Length::Share))
+            let pieces = BoundPieces::new(garment, report, "drape", piece.as_deref(), |q| q.drape);
+            pieces.verdicts(*area, boundary.map(RimBound::Share))
         }
         Bound::Crossings(most) => vec![crossings(report, *most)],
         Bound::Worn => vec![worn(report)],
@@ -246,19 +246,19 @@ fn worst(bound: String, values: Vec<(String, f64)>, limit: f64, unit: &'static s
 
 /// A bound on a rim: the length by which it may change, or the share.
 #[derive(Clone, Copy)]
-enum Length {
+enum RimBound {
     Absolute(f64),
     Share(f64),
 }
 
 /// The pieces a bound is about.
-struct Pieces<'a> {
+struct BoundPieces<'a> {
     bound: String,
     rows: Vec<&'a PieceReport>,
     way: fn(&Quartet) -> Option<f64>,
 }
 
-impl<'a> Pieces<'a> {
+impl<'a> BoundPieces<'a> {
     fn new(
         garment: &Garment,
         report: &'a Report,
@@ -274,7 +274,7 @@ impl<'a> Pieces<'a> {
         Self { bound: format!("{stage} {}", wanted.unwrap_or("all")), rows: rows.collect(), way }
     }
 
-    fn verdicts(&self, area: Option<f64>, boundary: Option<Length>) -> Vec<Verdict> {
+    fn verdicts(&self, area: Option<f64>, boundary: Option<RimBound>) -> Vec<Verdict> {
         let way = self.way;
         let area = area.and_then(|limit| {
             let values = self.values(|p| way(&p.area_error).map(|e| e * PERCENT))?;
@@ -283,11 +283,11 @@ impl<'a> Pieces<'a> {
         let boundary = boundary.and_then(|limit| {
             let name = format!("{} boundary", self.bound);
             Some(match limit {
-                Length::Share(limit) => {
+                RimBound::Share(limit) => {
                     let values = self.values(|p| way(&p.boundary_error).map(|e| e * PERCENT))?;
                     worst(name, values, limit * PERCENT, "%")
                 }
-                Length::Absolute(limit) => {
+                RimBound::Absolute(limit) => {
                     let values = self.values(|p| way(&p.boundary_error).map(|e| e * p.sizes.boundary_flat))?;
                     worst(name, values, limit * MM, "mm")
                 }

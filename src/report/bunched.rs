@@ -27,7 +27,7 @@ const MM2: f64 = 1e6;
 /// The places where cloth of the draped garment `welded` lies folded on itself, the largest first. Pieces that have a
 /// fold or a pleat by their pattern are left out.
 pub(super) fn bunched(garment: &Garment, mesh: &ClothMesh, welded: &Welded, body: &Mannequin) -> Vec<Bunched> {
-    let cloth = Cloth::new(garment, mesh, welded);
+    let cloth = PlacedSheets::new(garment, mesh, welded);
     let mut sets = DisjointSets::new(welded.surface.triangles.len());
     let mut folded: Vec<u32> = Vec::new();
     for triangle in (0..welded.surface.triangles.len() as u32).filter(|&t| cloth.sheet[t as usize].is_some()) {
@@ -59,7 +59,7 @@ fn join_neighbours(welded: &Welded, folded: &[u32], sets: &mut DisjointSets) {
 }
 
 /// The garment and its sheets.
-struct Cloth<'a> {
+struct PlacedSheets<'a> {
     mesh: &'a ClothMesh,
     welded: &'a Welded,
     layers: Layers<'a>,
@@ -67,7 +67,7 @@ struct Cloth<'a> {
     sheet: Vec<Option<i32>>,
 }
 
-impl<'a> Cloth<'a> {
+impl<'a> PlacedSheets<'a> {
     fn new(garment: &Garment, mesh: &'a ClothMesh, welded: &'a Welded) -> Self {
         let mut is_folded = vec![false; mesh.pieces.len()];
         for seam in garment.seams.iter().filter(|seam| matches!(seam.kind, SeamKind::Pleat(_))) {

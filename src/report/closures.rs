@@ -27,7 +27,7 @@ impl Closures {
             return Self::default();
         }
         let fastened = fastenings(garment);
-        let cloth = Cloth { mesh, at };
+        let cloth = PlacedGarment { mesh, at };
         let row = |(i, closure): (usize, &Closure)| {
             let own: Vec<&Fastening> = fastened.iter().filter(|f| f.tack[0] == i).collect();
             cloth.row(closure, &own)
@@ -39,12 +39,12 @@ impl Closures {
 }
 
 /// The garment where it was left.
-struct Cloth<'a> {
+struct PlacedGarment<'a> {
     mesh: &'a ClothMesh,
     at: &'a [Vec3],
 }
 
-impl Cloth<'_> {
+impl PlacedGarment<'_> {
     fn row(&self, closure: &Closure, fastened: &[&Fastening]) -> ClosureReport {
         let assumed = closure.tacks.is_empty() && !closure.mirrored.is_empty();
         let pairs = if assumed { &closure.mirrored } else { &closure.tacks };

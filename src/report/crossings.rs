@@ -1,15 +1,15 @@
 //! The findings of the independent checks on a surface in space: where it is inside a body, crosses it, or crosses
 //! itself.
 
-use super::schema::{Contact, Crossing};
+use super::schema::{ContactReport, Crossing};
 use crate::geometry::{MM, TriMesh, Vec3};
 use crate::verify::{crossings, crossings_between, inside};
 
 /// The figures, and every crossing with its place.
 #[derive(Clone, Debug, Default)]
-pub struct Seen {
+pub struct CrossingsSeen {
     /// The figures.
-    pub contact: Contact,
+    pub contact: ContactReport,
     /// One row for every two parts that cross, the busiest first.
     pub crossings: Vec<Crossing>,
 }
@@ -21,11 +21,11 @@ pub fn look<'a>(
     body: Option<&TriMesh>,
     part_of: impl Fn(u32) -> &'a str,
     written: impl Fn(Vec3) -> Vec3,
-) -> Seen {
+) -> CrossingsSeen {
     let within = body.map(|body| inside(&cloth.vertices, body)).unwrap_or_default();
     let through_body = body.map(|body| crossings_between(cloth, body).cloth_triangles).unwrap_or_default();
     let through_cloth = crossings(cloth);
-    let contact = Contact {
+    let contact = ContactReport {
         inside_body: within.count(),
         deepest: within.deepest * MM,
         cloth_body_intersections: through_body.len(),
@@ -41,7 +41,7 @@ pub fn look<'a>(
         add(&mut rows, one, Some(other), middle(t));
     }
     rows.sort_by_key(|r: &Crossing| std::cmp::Reverse(r.pairs));
-    Seen { contact, crossings: rows }
+    CrossingsSeen { contact, crossings: rows }
 }
 
 /// Counts a crossing of `piece` with the piece `through`, or with the body. The first says where.

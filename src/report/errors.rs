@@ -5,7 +5,7 @@ use crate::geometry::Vec3;
 
 /// The two states that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum ComparedStates {
     /// A sewn, draped or flattened piece with the drawn one.
     FromDrawn,
     /// A flattened piece with the draped one.
@@ -14,7 +14,7 @@ pub(super) enum Way {
 
 /// An error by the rule for uneven seams, and without it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Pair {
+pub(super) struct ErrorPair {
     pub(super) error: f64,
     pub(super) raw: f64,
 }
@@ -26,7 +26,7 @@ pub(super) fn area_error(
     before: &[Vec3],
     after: &[Vec3],
     left_out: impl Fn(u32) -> bool,
-) -> Pair {
+) -> ErrorPair {
     let (mut kept, mut all) = ([0.0; 2], [0.0; 2]);
     for (index, corners) in triangles {
         for (k, at) in [before, after].into_iter().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn area_error(
         }
     }
     let raw = relative(all[1] - all[0], all[0]);
-    Pair { error: if kept[0] > 0.0 { relative(kept[1] - kept[0], kept[0]) } else { raw }, raw }
+    ErrorPair { error: if kept[0] > 0.0 { relative(kept[1] - kept[0], kept[0]) } else { raw }, raw }
 }
 
 /// |length after − length before| / length before of the rim. Against the drawn piece, any length between the drawn
@@ -46,20 +46,20 @@ pub(super) fn boundary_error<'a>(
     rim: impl IntoIterator<Item = &'a RimEdge>,
     before: &[Vec3],
     after: &[Vec3],
-    way: Way,
-) -> Pair {
+    way: ComparedStates,
+) -> ErrorPair {
     let (mut total, mut off, mut off_raw) = (0.0, 0.0, 0.0);
     for edge in rim {
         let (from, to) = (edge.length(before), edge.length(after));
         let [low, high] = match way {
-            Way::FromDrawn => edge.drawn,
-            Way::FromDraped => [from / edge.ratio(), from * edge.ratio()],
+            ComparedStates::FromDrawn => edge.drawn,
+            ComparedStates::FromDraped => [from / edge.ratio(), from * edge.ratio()],
         };
         total += from;
         off += to - to.max(low).min(high);
         off_raw += to - from;
     }
-    Pair { error: relative(off, total), raw: relative(off_raw, total) }
+    ErrorPair { error: relative(off, total), raw: relative(off_raw, total) }
 }
 
 /// Area of a triangle, m².

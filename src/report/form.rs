@@ -73,7 +73,7 @@ impl FormReport {
         self.redraped.iter().min_by(|a, b| a.mean.total_cmp(&b.mean))
     }
 
-    /// What is wrong with the new pattern, in words.
+    /// The faults of the new pattern, in words.
     pub fn problems(&self) -> Vec<String> {
         let mut out = Vec::new();
         if !self.refused.is_empty() {

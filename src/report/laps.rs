@@ -35,7 +35,7 @@ const ALIKE: f64 = 0.5;
 const SHORTEST: f64 = 0.03;
 
 /// Two edges that closures hold on one another.
-struct Lap<'a> {
+struct HeldLap<'a> {
     /// The edge that belongs inside, and the one outside.
     edges: [EdgeId; 2],
     fastenings: Vec<&'a Fastening>,
@@ -53,7 +53,7 @@ pub(super) fn turned_laps(
     if closed.is_empty() {
         return found;
     }
-    let cloth = Cloth::new(mesh, welded);
+    let cloth = PlacedRims::new(mesh, welded);
     for lap in laps(garment, closed) {
         if let Some(turned) = cloth.turned(&lap) {
             found.entry(lap.fastenings[0].tack[0]).or_insert(turned);
@@ -64,14 +64,14 @@ pub(super) fn turned_laps(
 
 /// The laps: of pieces on different layers the outer one lies outside, of others the one that most of the closures'
 /// points meet, as a buttonhole lies over its button.
-fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<Lap<'a>> {
-    let mut laps: Vec<Lap> = Vec::new();
+fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<HeldLap<'a>> {
+    let mut laps: Vec<HeldLap> = Vec::new();
     for fastening in closed {
         let edges = fastening.ends.map(|end| end.edge);
-        let same = |lap: &&mut Lap| lap.edges == edges || lap.edges == [edges[1], edges[0]];
+        let same = |lap: &&mut HeldLap| lap.edges == edges || lap.edges == [edges[1], edges[0]];
         match laps.iter_mut().find(same) {
             Some(lap) => lap.fastenings.push(fastening),
-            None if edges[0] != edges[1] => laps.push(Lap { edges, fastenings: vec![fastening] }),
+            None if edges[0] != edges[1] => laps.push(HeldLap { edges, fastenings: vec![fastening] }),
             None => {}
         }
     }
@@ -87,7 +87,7 @@ fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<Lap<'a>> {
 }
 
 /// The garment and its rims.
-struct Cloth<'a> {
+struct PlacedRims<'a> {
     mesh: &'a ClothMesh,
     welded: &'a Welded,
     flat: FlatCloth,
@@ -98,13 +98,13 @@ struct Cloth<'a> {
 }
 
 /// A vertex of a lap's edge with another layer before or behind it.
-struct Place {
+struct LapPlace {
     /// Its place in the chain.
     at: usize,
     layer: Layer,
 }
 
-impl<'a> Cloth<'a> {
+impl<'a> PlacedRims<'a> {
     fn new(mesh: &'a ClothMesh, welded: &'a Welded) -> Self {
         let mut round = vec![Vec::new(); welded.surface.vertices.len()];
         for (t, corners) in (0..).zip(&welded.surface.triangles) {
@@ -116,13 +116,13 @@ impl<'a> Cloth<'a> {
     }
 
     /// The longest stretch of either edge of a lap that lies on the wrong side of the other layer.
-    fn turned(&self, lap: &Lap) -> Option<Turned> {
+    fn turned(&self, lap: &HeldLap) -> Option<Turned> {
         let sides = (0..2).filter_map(|side| self.turned_edge(lap, side));
         sides.max_by(|a, b| a.length.total_cmp(&b.length))
     }
 
     /// The same of the inner edge (side 0) or the outer one.
-    fn turned_edge(&self, lap: &Lap, side: usize) -> Option<Turned> {
+    fn turned_edge(&self, lap: &HeldLap, side: usize) -> Option<Turned> {
         let spots = lap.fastenings.iter().map(|f| f.ends.iter().find(|end| end.edge == lap.edges[side]));
         let corners: Vec<Option<[usize; 2]>> =
             spots.map(|spot| corner(self.mesh, self.welded, &self.loops, spot?)).collect();
@@ -175,7 +175,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Places where another layer lies before or behind the cloth, searched `beyond` the rim.
-    fn places(&self, ring: &[u32], chain: &[usize], beyond: f64) -> Vec<Place> {
+    fn places(&self, ring: &[u32], chain: &[usize], beyond: f64) -> Vec<LapPlace> {
         let n = ring.len();
         let point = |k: usize| self.welded.surface.vertices[ring[k % n] as usize];
         let place = |(at, &k): (usize, &usize)| {
@@ -191,7 +191,7 @@ impl<'a> Cloth<'a> {
             // On which side is asked at the rim: beyond it the body bends away by more than layers are apart.
             alike(point(k) + out * beyond)?;
             let layer = alike(point(k)).filter(|layer| layer.at.abs() > APART)?;
-            Some(Place { at, layer })
+            Some(LapPlace { at, layer })
         };
         chain.iter().enumerate().filter_map(place).collect()
     }
@@ -230,13 +230,13 @@ impl<'a> Cloth<'a> {
         &self,
         ring: &[u32],
         chain: &[usize],
-        places: &'p [Place],
+        places: &'p [LapPlace],
         is_wrong: impl Fn(&Layer) -> bool,
-    ) -> Option<Run<'p>> {
+    ) -> Option<LapStretch<'p>> {
         let step = |k: usize| self.flat.length(ring[k], ring[(k + 1) % ring.len()]);
         let runs =
             places.chunk_by(|a, b| is_wrong(&a.layer) == is_wrong(&b.layer)).filter(|run| is_wrong(&run[0].layer));
-        let measured = runs.map(|run| Run {
+        let measured = runs.map(|run| LapStretch {
             length: run.iter().map(|place| step(chain[place.at])).sum(),
             middle: &run[run.len() / 2],
         });
@@ -245,10 +245,10 @@ impl<'a> Cloth<'a> {
 }
 
 /// A stretch of an edge.
-struct Run<'p> {
+struct LapStretch<'p> {
     /// Metres.
     length: f64,
-    middle: &'p Place,
+    middle: &'p LapPlace,
 }
 
 /// Between which of the numbered points along a chain its place `at` is.

@@ -2,13 +2,13 @@
 
 use super::bunched::bunched;
 use super::closures::Closures;
-use super::crossings::{Seen, look};
-use super::errors::{Way, area, area_error, boundary_error};
+use super::crossings::{CrossingsSeen, look};
+use super::errors::{ComparedStates, area, area_error, boundary_error};
 use super::fit::{Bands, fit};
 use super::laps::turned_laps;
-use super::openings::{Opening, openings};
+use super::openings::{SewnRim, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
-use super::schema::{Narrow, PieceEdge, PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
+use super::schema::{NarrowReport, PieceEdge, PieceReport, PieceSizes, Quartet, Report, SeamReport, Stage};
 use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
@@ -124,20 +124,21 @@ impl Shapes {
     }
 
     /// `of(before, after, way)` for each way there are positions for.
-    fn each_way<T>(&self, of: impl Fn(&[Vec3], &[Vec3], Way) -> T) -> [Option<T>; 4] {
-        let from_flat = |after: &Option<Vec<Vec3>>| after.as_ref().map(|a| of(&self.flat, a, Way::FromDrawn));
+    fn each_way<T>(&self, of: impl Fn(&[Vec3], &[Vec3], ComparedStates) -> T) -> [Option<T>; 4] {
+        let from_flat =
+            |after: &Option<Vec<Vec3>>| after.as_ref().map(|a| of(&self.flat, a, ComparedStates::FromDrawn));
         let from_draped = self.draped.as_ref().zip(self.flattened.as_ref());
         [
             from_flat(&self.sewn),
             from_flat(&self.draped),
-            from_draped.map(|(before, after)| of(before, after, Way::FromDraped)),
+            from_draped.map(|(before, after)| of(before, after, ComparedStates::FromDraped)),
             from_flat(&self.flattened),
         ]
     }
 }
 
 /// The part of the mesh that one row of the table is about.
-struct Part<'a> {
+struct MeshPart<'a> {
     name: &'a str,
     particles: usize,
     smallest_angle: f64,
@@ -150,7 +151,7 @@ struct Part<'a> {
 
 fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<PieceReport>, PieceReport) {
     let mesh = run.mesh;
-    let mut total = Part {
+    let mut total = MeshPart {
         name: "total",
         particles: mesh.flat.len(),
         smallest_angle: mesh.pieces.iter().map(|p| p.smallest_angle).reduce(f64::min).unwrap_or(0.0),
@@ -165,7 +166,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     let tight = space.map(|space| Tight::new(space.rims(), &space.openings, &rims, run.body));
     let given = space.map(|space| space.at).zip(tight.as_ref());
     for (index, (piece, rim)) in mesh.pieces.iter().zip(rims).enumerate() {
-        let part = Part {
+        let part = MeshPart {
             name: &piece.name,
             particles: piece.particles.len(),
             smallest_angle: piece.smallest_angle,
@@ -175,7 +176,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
             strain: space.map_or_else(Default::default, |space| piece_strain(mesh, piece, &elastic, space.at)),
         };
         let mut report = row(&part, shapes);
-        report.narrow = piece.narrow.map(|n| Narrow { width: n.width * MM, along: n.along * MM });
+        report.narrow = piece.narrow.map(|n| NarrowReport { width: n.width * MM, along: n.along * MM });
         report.outline_distance =
             shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM);
         report.overlaps = run.overlaps.and_then(|overlaps| overlaps.get(index).copied());
@@ -199,7 +200,7 @@ fn edge(edge: &EdgeParticles) -> PieceEdge {
 }
 
 /// Figures that a piece shares with the total. Those of a piece alone are left open.
-fn row(part: &Part, shapes: &Shapes) -> PieceReport {
+fn row(part: &MeshPart, shapes: &Shapes) -> PieceReport {
     let uneven = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle);
     let mut drawn_in: Vec<u32> = uneven.chain(part.gathered.iter().copied()).collect();
     drawn_in.sort_unstable();
@@ -232,12 +233,12 @@ fn quartet([sew, drape, flatten, round_trip]: [Option<f64>; 4]) -> Quartet {
     Quartet { sew, drape, flatten, round_trip }
 }
 
-fn sizes(part: &Part, shapes: &Shapes) -> Sizes {
+fn sizes(part: &MeshPart, shapes: &Shapes) -> PieceSizes {
     let total_area = |at: &[Vec3]| part.triangles.iter().map(|(_, t)| area(t, at)).sum::<f64>() * MM2;
     let rim_length = |at: &[Vec3]| part.rim.iter().map(|e| e.length(at)).sum::<f64>() * MM;
     let area_of = |at: &Option<Vec<Vec3>>| at.as_deref().map(total_area);
     let length_of = |at: &Option<Vec<Vec3>>| at.as_deref().map(rim_length);
-    Sizes {
+    PieceSizes {
         area_flat: total_area(&shapes.flat),
         area_sewn: area_of(&shapes.sewn),
         area_draped: area_of(&shapes.draped),
@@ -277,7 +278,7 @@ struct InSpace<'a> {
     /// The same with crossed straps uncrossed, where it has any.
     uncrossed: Option<Welded>,
     /// Openings of the garment with its straps uncrossed.
-    openings: Vec<Opening>,
+    openings: Vec<SewnRim>,
 }
 
 impl<'a> InSpace<'a> {
@@ -301,7 +302,7 @@ impl<'a> InSpace<'a> {
     }
 
     /// Findings of the independent checks.
-    fn seen(&self, run: &Measured) -> Seen {
+    fn seen(&self, run: &Measured) -> CrossingsSeen {
         let piece = |t: u32| {
             let first = run.mesh.triangles[t as usize][0];
             run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())

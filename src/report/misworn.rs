@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::measure::Measured;
-use super::openings::Opening;
+use super::openings::SewnRim;
 use super::ring::{FlatCloth, FlatRing};
 use super::schema::{Fault, FaultKind};
 use super::worn::Seen;
@@ -39,7 +39,7 @@ const ABOVE_WAIST: f64 = 0.05;
 pub(super) struct Wear<'a> {
     run: &'a Measured<'a>,
     welded: &'a Welded,
-    openings: Vec<&'a Opening>,
+    openings: Vec<&'a SewnRim>,
     names: &'a [String],
     /// As the garment was put on, if that is known.
     placed: Option<&'a [Seen]>,
@@ -57,7 +57,7 @@ impl<'a> Wear<'a> {
     pub(super) fn new(
         run: &'a Measured<'a>,
         welded: &'a Welded,
-        openings: Vec<&'a Opening>,
+        openings: Vec<&'a SewnRim>,
         names: &'a [String],
         [placed, sewn]: [Option<&'a [Seen]>; 2],
         now: &'a [Seen],

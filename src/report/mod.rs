@@ -30,16 +30,16 @@ mod tight;
 mod worn;
 
 pub use bounds::{Verdict, verdicts, verdicts_by_test};
-pub use crossings::{Seen, look};
-pub use fit::{Band, Bands, Finished, Fit, Girth, Length, Pressure, pressure};
+pub use crossings::{CrossingsSeen, look};
+pub use fit::{Band, Bands, Finished, Fit, Girth, Pressure, WornLength, pressure};
 pub use form::{Apart, FormReport, LengthChange};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use page::{PageParts, page, page_parts};
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    Bunched, ClosureReport, Contact, ContactSeconds, ContinuedFrom, Crossing, Drift, Fault, FaultKind, PieceEdge,
-    PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
+    Bunched, ClosureReport, ContactReport, ContactSeconds, ContinuedFrom, Crossing, Drift, Fault, FaultKind, PieceEdge,
+    PieceReport, PieceSizes, Quartet, Report, SeamReport, Spread, Stage, Stretched, Turned, Worn, WornBefore,
 };
 pub use strain::{extensions, thread_strains, vertex_strain};
 pub use summary::{shortened, summary};

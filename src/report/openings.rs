@@ -4,7 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Bridge, EdgeId, Fastening, Garment, Piece, RimSpot, Step, patches, worn_rims, written_edge};
+use crate::pattern::{
+    Bridge, EdgeId, Fastening, Garment, Piece, RimSpot, Side, Step, patches, worn_rims, written_edge,
+};
 use crate::verify::Welded;
 
 /// The edge that a stretch of rim belongs to. None for a chord that joins no two particles of one edge.
@@ -12,7 +14,7 @@ type Owner = Option<EdgeId>;
 
 /// A rim of the sewn garment.
 #[derive(Clone, Debug)]
-pub(super) struct Opening {
+pub(super) struct SewnRim {
     /// Vertices of the welded surface, in order.
     pub(super) ring: Vec<u32>,
     /// (piece, edge) names round it, in order, each once.
@@ -23,7 +25,7 @@ pub(super) struct Opening {
     pub(super) is_symmetric: bool,
 }
 
-impl Opening {
+impl SewnRim {
     /// Positions round the rim.
     pub(super) fn positions(&self, welded: &Welded) -> Vec<Vec3> {
         self.ring.iter().map(|&v| welded.surface.vertices[v as usize]).collect()
@@ -31,7 +33,7 @@ impl Opening {
 }
 
 /// Every rim of the garment with its free edges, without stretches that `closed` closes and without rims of patches.
-pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<Opening> {
+pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<SewnRim> {
     let owners = edge_owners(mesh, welded);
     let loops = rim_loops(&welded.surface.triangles);
     let rims: Vec<Vec<Step<Owner>>> = loops
@@ -58,7 +60,7 @@ pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, clo
         let ring = steps.iter().map(|&[r, k]| loops[r][k]).collect();
         let areas = areas(mesh, edges.iter().map(|e| e.piece).collect());
         let is_symmetric = is_symmetric(garment, &edges);
-        (!patch).then(|| Opening { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect(), areas, is_symmetric })
+        (!patch).then(|| SewnRim { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect(), areas, is_symmetric })
     };
     worn_rims(&rims, &bridges).into_iter().filter_map(opening).collect()
 }
@@ -167,17 +169,13 @@ fn name(edges: &[(String, String)]) -> String {
     let more = if bases.len() > EDGES_NAMED { " + …" } else { "" };
     let names = bases[..bases.len().min(EDGES_NAMED)].join(" + ");
     let Some((first, _)) = edges.first() else { return "rim".into() };
-    let mut sides = edges.iter().map(|(piece, edge)| side(piece).or_else(|| side(edge)));
+    // Of one of a pair, or of an edge of one half of a folded piece.
+    let mut sides = edges.iter().map(|(piece, edge)| Side::split(piece).1.or_else(|| Side::split(edge).1));
     let common = sides.next().flatten().filter(|s| sides.all(|other| other == Some(*s)));
     let one_piece = edges.iter().all(|(piece, _)| piece == first);
-    let unsaid = common.filter(|_| !(one_piece && side(first).is_some()));
-    let suffix = unsaid.map_or_else(String::new, |side| format!(".{side}"));
+    let unsaid = common.filter(|_| !(one_piece && Side::split(first).1.is_some()));
+    let suffix = unsaid.map_or("", Side::suffix);
     if one_piece { format!("{first}{suffix}.{names}{more}") } else { format!("{names}{suffix}{more}") }
-}
-
-/// `L` or `R` of one of a pair, or of an edge of one half of a folded piece.
-fn side(name: &str) -> Option<&str> {
-    name.rsplit_once('.').map(|(_, side)| side).filter(|s| matches!(*s, "L" | "R"))
 }
 
 #[cfg(test)]

@@ -74,7 +74,7 @@ pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
 
 fn rim_of(mesh: &ClothMesh, triangles: Range<usize>, drawn_in: &HashMap<[u32; 2], DrawnIn>) -> Vec<RimEdge> {
     let topology = Topology::new(&mesh.triangles[triangles.clone()]);
-    let edge = |e: &crate::geometry::Edge| {
+    let edge = |e: &crate::geometry::MeshEdge| {
         let flat = (mesh.flat[e.ends[1] as usize] - mesh.flat[e.ends[0] as usize]).norm();
         let triangle = e.triangles[0]? + triangles.start as u32;
         let share = drawn_in.get(&sorted_pair(e.ends)).map_or(1.0, |elastic| elastic.ratio);

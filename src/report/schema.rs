@@ -31,7 +31,7 @@ pub struct Report {
     #[serde(default)]
     pub closures: Vec<ClosureReport>,
     /// Numbers of crossings.
-    pub contact: Contact,
+    pub contact: ContactReport,
     /// The crossings by pieces, the most frequent first. Empty in a good result.
     #[serde(default)]
     pub crossings: Vec<Crossing>,
@@ -107,10 +107,10 @@ pub struct PieceReport {
     pub smallest_angle: f64,
     /// Set where the piece is narrower than the spacing, and was meshed finer.
     #[serde(default)]
-    pub narrow: Option<Narrow>,
+    pub narrow: Option<NarrowReport>,
     /// Areas (`area_flat`, …, mm²) and lengths of the rim (`boundary_flat`, …, mm).
     #[serde(flatten)]
-    pub sizes: Sizes,
+    pub sizes: PieceSizes,
     /// |area after − area before| / area before, without the triangles on the rim of a seam that joins lengths more
     /// than 5 % apart.
     pub area_error: Quartet,
@@ -153,7 +153,7 @@ pub struct PieceEdge {
 
 /// Measures of a piece narrower than the spacing, which has one row of cells across.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Narrow {
+pub struct NarrowReport {
     /// Its width, mm.
     pub width: f64,
     /// Length of its springs along, mm.
@@ -162,7 +162,7 @@ pub struct Narrow {
 
 /// Sizes of a piece after every stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sizes {
+pub struct PieceSizes {
     /// As meshed, mm².
     pub area_flat: f64,
     /// Sewn, mm².
@@ -268,7 +268,7 @@ pub struct Turned {
 
 /// Findings of the independent checks on the final garment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Contact {
+pub struct ContactReport {
     /// Vertices inside the body.
     pub inside_body: usize,
     /// Depth of the deepest, mm.
@@ -303,7 +303,7 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
-    /// Its length as drawn, mm. What closures bridge counts as worn.
+    /// Its length as drawn, mm. A gap that closures bridge counts as worn.
     #[serde(default)]
     pub length_flat: f64,
     /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm. Negative before it.

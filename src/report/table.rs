@@ -1,7 +1,7 @@
 //! The report for people.
 
 use super::fit::{Band, Fit};
-use super::schema::{ClosureReport, Contact, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
+use super::schema::{ClosureReport, ContactReport, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
 
 /// Shown where there is no value.
 const NONE: &str = "–";
@@ -130,7 +130,7 @@ fn fit(fit: &Fit) -> String {
 }
 
 /// A line with the figures of contact, and one for every two pieces that cross.
-pub fn contact_lines(c: &Contact, crossings: &[Crossing]) -> String {
+pub fn contact_lines(c: &ContactReport, crossings: &[Crossing]) -> String {
     let mut out = format!(
         "  inside the body {} (deepest {} mm) · cloth through body {} · cloth through cloth {}\n",
         c.inside_body,

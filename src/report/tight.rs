@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::openings::Opening;
+use super::openings::SewnRim;
 use super::rim::RimEdge;
 use crate::geometry::{Vec3, sorted_pair};
 use crate::mannequin::Mannequin;
@@ -21,7 +21,7 @@ pub(super) struct Tight<'a> {
 
 impl<'a> Tight<'a> {
     /// Of all the `openings` of a garment, with the `rims` of its pieces, on `body`.
-    pub(super) fn new(welded: &'a Welded, openings: &[Opening], rims: &[Vec<RimEdge>], body: &Mannequin) -> Self {
+    pub(super) fn new(welded: &'a Welded, openings: &[SewnRim], rims: &[Vec<RimEdge>], body: &Mannequin) -> Self {
         let key = |e: &RimEdge| sorted_pair(e.ends.map(|p| welded.vertex_of[p as usize]));
         let drawn: HashMap<[u32; 2], f64> = rims.iter().flatten().map(|e| (key(e), e.flat)).collect();
         let mut edges = HashSet::new();

@@ -2,7 +2,7 @@
 
 use super::measure::Measured;
 use super::misworn::Wear;
-use super::openings::{Opening, flaps, opening_names};
+use super::openings::{SewnRim, flaps, opening_names};
 use super::schema::{Worn, WornBefore};
 use std::collections::HashMap;
 
@@ -13,12 +13,12 @@ use crate::pattern::written_names;
 use crate::verify::{Passage, Through, Welded, past_end, worn};
 
 /// Rows of the openings of the garment `welded`, its latest state. Edges of flaps are left out.
-pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[Opening]) -> Vec<Worn> {
-    let all: Vec<&Opening> = openings.iter().collect();
+pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[SewnRim]) -> Vec<Worn> {
+    let all: Vec<&SewnRim> = openings.iter().collect();
     let seen = Seen::new(&all, welded, run.body);
     let rings: Vec<&[u32]> = openings.iter().map(|o| o.ring.as_slice()).collect();
     let flaps = flaps(&rings, &seen.iter().map(|seen| seen.passage.through.is_some()).collect::<Vec<bool>>());
-    let open: Vec<&Opening> = all.into_iter().zip(&flaps).filter(|(_, flap)| !**flap).map(|(o, _)| o).collect();
+    let open: Vec<&SewnRim> = all.into_iter().zip(&flaps).filter(|(_, flap)| !**flap).map(|(o, _)| o).collect();
     let now: Vec<Seen> = seen.into_iter().zip(&flaps).filter(|(_, flap)| !**flap).map(|(seen, _)| seen).collect();
     let at = |positions: &[Vec3]| Seen::new(&open, &Welded::new(run.mesh, run.weld, positions), run.body);
     let (placed, sewn) = (run.placed.map(at), run.draped.and(run.sewn).map(at));
@@ -53,8 +53,8 @@ fn drawn_edges(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], f64> {
     steps.map(edge).collect()
 }
 
-/// Length of an opening as drawn, metres. What nobody drew has its length as worn.
-fn length_flat(opening: &Opening, welded: &Welded, drawn: &HashMap<[u32; 2], f64>) -> f64 {
+/// Length of an opening as drawn, metres. A part of it that nobody drew has its length as worn.
+fn length_flat(opening: &SewnRim, welded: &Welded, drawn: &HashMap<[u32; 2], f64>) -> f64 {
     let next = opening.ring.iter().cycle().skip(1);
     let step = |(&a, &b): (&u32, &u32)| {
         let worn = (welded.surface.vertices[a as usize] - welded.surface.vertices[b as usize]).norm();
@@ -77,7 +77,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    fn new(openings: &[&Opening], welded: &Welded, body: &Mannequin) -> Vec<Self> {
+    fn new(openings: &[&SewnRim], welded: &Welded, body: &Mannequin) -> Vec<Self> {
         let rims: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
         let seen = |(rim, passage): (&Vec<Vec3>, Passage)| Self {
             past_end: passage.through.and_then(|part| past_end(rim, part, body)),

@@ -93,8 +93,8 @@ const GAP: f64 = 0.1;
 const WIDEST_GAP: f64 = 0.9e-3;
 /// Soft springs while the seams close: N/m, and their share on the bias.
 const SOFT: SpringModel = SpringModel::Soft { stiffness: 1000.0, bias: 0.4 };
-/// Stitch stiffness, N/m, and the largest force of a pair, N, phase by phase (F5). What closes the last
-/// millimetres is the growing cap, not the stiffness.
+/// Stitch stiffness, N/m, and the largest force of a pair, N, phase by phase (F5). The growing cap
+/// closes the last millimetres, not the stiffness.
 const PHASES: [(f64, f64); 3] = [(100.0, 0.3), (800.0, 1.0), (6400.0, 4.0)];
 /// The first phase ends when no gap is wider than this, metres.
 const NEAR: f64 = 7.5e-3;
@@ -265,8 +265,8 @@ impl<'a> Closing<'a> {
     }
 
     /// Goes on with closed seams while what closures tie comes nearer, in at most `max_steps`, so that a garment does
-    /// not fall while it is open. What tears a seam open that does not close again is left undone. Returns the steps
-    /// that took.
+    /// not fall while it is open. A step that tears a seam open, which does not close again, is left undone. Returns
+    /// the steps that took.
     fn do_up(&mut self, world: &mut World, max_steps: usize) -> Result<usize, SewError> {
         let last = self.harder.len().saturating_sub(1);
         let is_open = |own: &Self, x: &[Vec3]| own.widest(&own.stitching.gaps(x), last) > own.tolerance;
@@ -302,7 +302,7 @@ impl<'a> Closing<'a> {
         gaps.iter().zip(&self.stage).filter(|(_, of)| **of <= stage).map(|(gap, _)| *gap).fold(0.0, f64::max)
     }
 
-    /// What the pairs pull with while those of a `stage` are in a `phase`: those of earlier stages as they did last,
+    /// The pull of the pairs while those of a `stage` are in a `phase`: those of earlier stages pull as they did last,
     /// those of later ones with nothing. Tacks pull as seams do in the phase, and harder where they are stuck.
     fn pulls(&self, stage: usize, phase: usize) -> Vec<Pull> {
         let pull = |(ends, &of): (&[u32; 2], &usize)| {

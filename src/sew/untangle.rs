@@ -2,7 +2,7 @@
 
 use crate::contact::Tangle;
 use crate::dynamics::{StepError, World};
-use crate::geometry::{Edge, Topology, Vec3};
+use crate::geometry::{MeshEdge, Topology, Vec3};
 
 /// Rounds of leading the cloth out of itself.
 const ROUNDS: usize = 200;
@@ -57,7 +57,7 @@ pub(super) fn lead<T>(
 }
 
 /// Moves the two of every crossing by up to `pull` metres.
-fn shorten(world: &mut World, edges: &[Edge], tangles: &[Tangle], pull: f64) {
+fn shorten(world: &mut World, edges: &[MeshEdge], tangles: &[Tangle], pull: f64) {
     let mut sum = vec![(Vec3::zeros(), 0.0); world.x.len()];
     for tangle in tangles {
         let Some(way) = way_out(world, edges, tangle) else { continue };
@@ -75,7 +75,7 @@ fn shorten(world: &mut World, edges: &[Edge], tangles: &[Tangle], pull: f64) {
 /// Where to move the edge against the triangle, at most 1: the slope of the length of the lines along which the faces
 /// beside the edge cross the triangle. `None` for what has no area, and for an edge in the triangle's plane, which says
 /// of no way whether it shortens that line.
-fn way_out(world: &World, edges: &[Edge], tangle: &Tangle) -> Option<Vec3> {
+fn way_out(world: &World, edges: &[MeshEdge], tangle: &Tangle) -> Option<Vec3> {
     let at = |n: u32| world.x[n as usize];
     let [p, q] = tangle.edge.map(at);
     let [a, b, c] = tangle.triangle.map(at);

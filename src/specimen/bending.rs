@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::Arc;
 
-use super::rig::{ALONG_WARP, Sheet, WAYS, nothing, settle};
-use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
+use super::rig::{ALONG_WARP, SpecimenSheet, WAYS, nothing, settle};
+use super::{BenchFigure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 
@@ -29,15 +29,15 @@ fn length_of(fabric: &Fabric, angle: f64) -> f64 {
 }
 
 /// A strip in a clamp, Γ = σ g L³/B.
-struct Strip {
-    sheet: Sheet,
+struct ClampedStrip {
+    sheet: SpecimenSheet,
     spacing: f64,
     /// From the jaws to the free end.
     length: f64,
     width: f64,
 }
 
-impl Strip {
+impl ClampedStrip {
     /// The first three rows are held. The cloth that bends begins half-way between the second and the third row, so the
     /// jaws are there.
     fn new(
@@ -51,7 +51,7 @@ impl Strip {
         let size = [across as f64 * spacing, (segments + 1) as f64 * spacing];
         // A strip touches nothing, and its grid may be finer than the cloth is thick.
         let thin = Arc::new(Fabric { thickness: fabric.thickness.min(THIN * spacing), ..fabric.as_ref().clone() });
-        Ok(Self { sheet: Sheet::strip(&thin, size, angle, spacing)?, spacing, length, width: size[0] })
+        Ok(Self { sheet: SpecimenSheet::strip(&thin, size, angle, spacing)?, spacing, length, width: size[0] })
     }
 
     /// Lets it go from the plane that `along` (its length) and `across` span. Returns the middle of its free end, seen
@@ -71,7 +71,7 @@ impl Strip {
 
 /// Share of its length that a cantilever's end is down over that it is out.
 fn fall_over_reach(fabric: &Arc<Fabric>, angle: f64, gamma: f64, segments: usize) -> Result<f64, SpecimenError> {
-    let end = Strip::new(fabric, angle, gamma, [segments, ACROSS])?.end(Vec3::x(), Vec3::z())?;
+    let end = ClampedStrip::new(fabric, angle, gamma, [segments, ACROSS])?.end(Vec3::x(), Vec3::z())?;
     Ok(-end.y / end.x)
 }
 
@@ -91,7 +91,7 @@ pub(super) fn cantilever(sample: &Sample) -> Result<Outcome, SpecimenError> {
     for (angle, way) in WAYS {
         for gamma in GAMMAS {
             let [reach, fall] = theory::cantilever(gamma);
-            out.push(Figure {
+            out.push(BenchFigure {
                 test: "cantilever",
                 what: format!("{way}, Γ = {gamma}: fall over reach"),
                 unit: "",
@@ -115,7 +115,7 @@ pub(super) fn bending_length(sample: &Sample) -> Result<Outcome, SpecimenError> 
         let (below, above) = (angle_at(low)?, angle_at(high)?);
         let gamma = (low.ln() + (high / low).ln() * (chord - below) / (above - below)).exp();
         let c = length_of(fabric, angle);
-        Ok(Figure {
+        Ok(BenchFigure {
             test: "bending length",
             what: format!("{way}, from the overhang at 41.5°"),
             unit: "mm",
@@ -151,12 +151,12 @@ pub(super) fn standing(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let measure = |(angle, way): (f64, &str)| {
         let (up, side) = (Vec3::new(LEAN.sin(), LEAN.cos(), 0.0), Vec3::new(LEAN.cos(), -LEAN.sin(), 0.0));
         let deflection = |gamma: f64| {
-            let strip = Strip::new(fabric, angle, gamma, [SEGMENTS, ACROSS])?;
+            let strip = ClampedStrip::new(fabric, angle, gamma, [SEGMENTS, ACROSS])?;
             Ok(strip.end(up, Vec3::z())?.dot(&side) / strip.length)
         };
         let gamma = southwell([5.0, 6.5], 1.0, deflection)?;
         let c = 1e3 * length_of(fabric, angle);
-        Ok(Figure {
+        Ok(BenchFigure {
             test: "standing strip",
             what: format!("{way}, longest that stands"),
             unit: "mm",
@@ -175,7 +175,7 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let (across, side) = (Vec3::new(0.0, LEAN.cos(), LEAN.sin()), Vec3::new(0.0, -LEAN.sin(), LEAN.cos()));
         let critical_of = |segments: usize| {
             let deflection = |gamma: f64| {
-                let strip = Strip::new(fabric, angle, gamma, [SEGMENTS, segments])?;
+                let strip = ClampedStrip::new(fabric, angle, gamma, [SEGMENTS, segments])?;
                 Ok(strip.end(Vec3::x(), across)?.dot(&side).abs() / strip.length)
             };
             Ok::<_, SpecimenError>(southwell([15.5, 17.0], 2.0, deflection)?.cbrt())
@@ -185,7 +185,7 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
         // Bent along its length and twisted by the mean of warp and weft.
         let ratio = (fabric.bend_warp / fabric.bend_weft).powf(if angle == ALONG_WARP { -0.25 } else { 0.25 });
         let c = 1e3 * length_of(fabric, angle);
-        Ok(Figure {
+        Ok(BenchFigure {
             test: "strip on edge",
             what: format!("{way}, longest that stays upright"),
             unit: "mm",
@@ -210,7 +210,7 @@ pub(super) fn roll(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let fabric = &sample.fabric;
     const SIDE: f64 = 0.1;
     const RADIUS: f64 = 0.05;
-    let sheet = Sheet::strip(fabric, [SIDE, SIDE], ALONG_WARP, SIDE / SEGMENTS as f64)?;
+    let sheet = SpecimenSheet::strip(fabric, [SIDE, SIDE], ALONG_WARP, SIDE / SEGMENTS as f64)?;
     let cloth = sheet.cloth(|_| false);
     let (root_warp, root_weft) = (fabric.bend_warp.sqrt(), fabric.bend_weft.sqrt());
     let measure = |(angle, way): (f64, &str)| {
@@ -221,7 +221,7 @@ pub(super) fn roll(sample: &Sample) -> Result<Outcome, SpecimenError> {
         });
         let rigidity = 2.0 * cloth.bending.energy(&x) * (RADIUS / SIDE).powi(2);
         let known = (root_warp * angle.cos().powi(2) + root_weft * angle.sin().powi(2)).powi(2);
-        Figure {
+        BenchFigure {
             test: "roll",
             what: format!("{way}, rigidity"),
             unit: "µN·m",

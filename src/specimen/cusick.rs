@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
-use super::rig::{Sheet, lift, settle};
-use super::{Figure, Known, Outcome, Sample, SpecimenError};
+use super::rig::{SpecimenSheet, lift, settle};
+use super::{BenchFigure, Known, Outcome, Sample, SpecimenError};
 use crate::contact::Collider;
 use crate::dynamics::{GRIP, World};
 use crate::geometry::{TriMesh, Vec2, Vec3, rim_loops};
@@ -65,7 +65,7 @@ pub const LAYS: [Lay; 6] = [
 
 /// A draped disc.
 #[derive(Clone, Debug)]
-pub struct Draped {
+pub struct DrapedDisc {
     /// Its shadow.
     pub shadow: Shadow,
     /// Drape coefficient: share of the overhang that is in the shadow.
@@ -80,7 +80,7 @@ pub struct Draped {
 #[derive(Clone, Debug)]
 pub struct Series {
     /// One of each lay.
-    pub draped: Vec<Draped>,
+    pub draped: Vec<DrapedDisc>,
 }
 
 impl Series {
@@ -111,8 +111,8 @@ impl Series {
     }
 
     /// The lay whose coefficient is nearest to the mean.
-    pub fn typical(&self) -> Option<&Draped> {
-        let off = |d: &&Draped| (d.coefficient - self.mean()).abs();
+    pub fn typical(&self) -> Option<&DrapedDisc> {
+        let off = |d: &&DrapedDisc| (d.coefficient - self.mean()).abs();
         self.draped.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 }
@@ -120,7 +120,7 @@ impl Series {
 /// Drape coefficient and folds.
 pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let series = Series::drape(sample, SPACING)?;
-    let figure = |what: &str, unit: &'static str, measured: f64, known: Known| Figure {
+    let figure = |what: &str, unit: &'static str, measured: f64, known: Known| BenchFigure {
         test: "drape",
         what: format!("30 cm disc in {:.0} mm, {} lays: {what}", 1e3 * SPACING, LAYS.len()),
         unit,
@@ -141,9 +141,9 @@ pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
 ///
 /// # Errors
 /// [`SpecimenError`] when it cannot be meshed or does not come to rest.
-pub fn drape(sample: &Sample, spacing: f64, lay: &Lay) -> Result<Draped, SpecimenError> {
+pub fn drape(sample: &Sample, spacing: f64, lay: &Lay) -> Result<DrapedDisc, SpecimenError> {
     let body = pedestal()?;
-    let sheet = Sheet::disc(&sample.fabric, DISC, spacing)?;
+    let sheet = SpecimenSheet::disc(&sample.fabric, DISC, spacing)?;
     // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is
     // the cloth from half a spacing before it on, and that particle is on average half a spacing
     // from where holding ends.
@@ -158,7 +158,7 @@ pub fn drape(sample: &Sample, spacing: f64, lay: &Lay) -> Result<Draped, Specime
     let area = |r: f64| PI * r * r;
     let coefficient = (shadow.area() - area(PEDESTAL)) / (area(DISC) - area(PEDESTAL));
     let folds = folds(&world.x, &sheet.mesh.triangles);
-    Ok(Draped { shadow, coefficient, folds, cloth: TriMesh { vertices: world.x, triangles: sheet.mesh.triangles } })
+    Ok(DrapedDisc { shadow, coefficient, folds, cloth: TriMesh { vertices: world.x, triangles: sheet.mesh.triangles } })
 }
 
 fn fall(world: &mut World) -> Result<(), SpecimenError> {

@@ -6,8 +6,8 @@
 
 use std::f64::consts::PI;
 
-use super::rig::{ALONG_WARP, Sheet, block, held_with, lift, nothing, settle};
-use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
+use super::rig::{ALONG_WARP, SpecimenSheet, block, held_with, lift, nothing, settle};
+use super::{BenchFigure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::contact::Collider;
 use crate::dynamics::{GRIP, World};
 use crate::fabric::GRAVITY;
@@ -41,7 +41,7 @@ const STILL: f64 = 1e-5;
 pub(super) fn measurements(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let published =
         |k: usize| sample.published.map_or_else(String::new, |means| format!(" (published: {:.4})", means[k]));
-    let figure = |what: String, unit: &'static str, measured: f64| Figure {
+    let figure = |what: String, unit: &'static str, measured: f64| BenchFigure {
         test: "hand tests",
         what,
         unit,
@@ -62,7 +62,7 @@ pub(super) fn measurements(sample: &Sample) -> Result<Outcome, SpecimenError> {
 /// Length of the diagonal over that without load when three corners are held and the fourth is drawn by `load` kg.
 fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
     let bench = nothing()?;
-    let sheet = Sheet::strip(&sample.fabric, SIZE, ALONG_WARP, SPACING)?;
+    let sheet = SpecimenSheet::strip(&sample.fabric, SIZE, ALONG_WARP, SPACING)?;
     let corner = Vec2::from(SIZE);
     let clip = |p: &Vec2, c: Vec2| (p - c).amax() < CLIP;
     const DRAWN: usize = 3;
@@ -95,7 +95,7 @@ fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
 /// over the whole when it has been let go.
 fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     let plate = plate()?;
-    let sheet = Sheet::strip(&sample.fabric, SIZE, ALONG_WARP, FINE)?;
+    let sheet = SpecimenSheet::strip(&sample.fabric, SIZE, ALONG_WARP, FINE)?;
     let lift = lift(&sample.fabric);
     let raised = raised();
     let place = |p: &Vec2| {
@@ -128,7 +128,7 @@ fn raised() -> Vec<[f64; 2]> {
 }
 
 /// Shape of the cloth at rest when only the plate supports it.
-fn let_go(sheet: &Sheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, SpecimenError> {
+fn let_go(sheet: &SpecimenSheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, SpecimenError> {
     let mut world = sheet.hang(sheet.cloth(|_| false), folded.x, plate)?;
     world.grip(GRIP);
     settle(&mut world, FINE, STILL)?;

@@ -18,7 +18,7 @@ mod theory;
 use std::sync::Arc;
 
 pub use bending::cantilever_error;
-pub use cusick::{Draped, LAYS, Lay, Series, Shadow, drape};
+pub use cusick::{DrapedDisc, LAYS, Lay, Series, Shadow, drape};
 
 use crate::dynamics::StepError;
 use crate::fabric::Fabric;
@@ -42,7 +42,7 @@ pub enum Known {
 
 /// One figure of one test.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct BenchFigure {
     /// The test.
     pub test: &'static str,
     /// The measured quantity and state.
@@ -55,7 +55,7 @@ pub struct Figure {
     pub known: Known,
 }
 
-impl Figure {
+impl BenchFigure {
     /// Share by which the measured value is off a known one.
     pub fn error(&self) -> Option<f64> {
         match self.known {
@@ -119,8 +119,8 @@ pub struct Sample {
 
 /// A test of the bench.
 #[derive(Clone, Copy, Debug)]
-pub struct Test {
-    /// As [`Figure::test`] has it.
+pub struct BenchTest {
+    /// As [`BenchFigure::test`] has it.
     pub name: &'static str,
     run: fn(&Sample) -> Result<Outcome, SpecimenError>,
 }
@@ -129,34 +129,34 @@ pub struct Test {
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its figures.
-    pub figures: Vec<Figure>,
+    pub figures: Vec<BenchFigure>,
     /// The draped disc nearest to the mean of its lays, of the drape test.
-    pub draped: Option<Draped>,
+    pub draped: Option<DrapedDisc>,
 }
 
-impl From<Vec<Figure>> for Outcome {
-    fn from(figures: Vec<Figure>) -> Self {
+impl From<Vec<BenchFigure>> for Outcome {
+    fn from(figures: Vec<BenchFigure>) -> Self {
         Self { figures, draped: None }
     }
 }
 
 /// Every test, in the order of a report.
-pub const TESTS: [Test; 12] = [
-    Test { name: "cantilever", run: bending::cantilever },
-    Test { name: "bending length", run: bending::bending_length },
-    Test { name: "standing strip", run: bending::standing },
-    Test { name: "strip on edge", run: bending::on_edge },
-    Test { name: "roll", run: bending::roll },
-    Test { name: "pulled strip", run: stretching::pulled },
-    Test { name: "hanging strip", run: stretching::hanging },
-    Test { name: "catenary", run: stretching::between_hooks },
-    Test { name: "picture frame", run: shearing::picture_frame },
-    Test { name: "bias extension", run: shearing::bias_extension },
-    Test { name: "drape", run: cusick::cusick },
-    Test { name: "hand tests", run: hand::measurements },
+pub const TESTS: [BenchTest; 12] = [
+    BenchTest { name: "cantilever", run: bending::cantilever },
+    BenchTest { name: "bending length", run: bending::bending_length },
+    BenchTest { name: "standing strip", run: bending::standing },
+    BenchTest { name: "strip on edge", run: bending::on_edge },
+    BenchTest { name: "roll", run: bending::roll },
+    BenchTest { name: "pulled strip", run: stretching::pulled },
+    BenchTest { name: "hanging strip", run: stretching::hanging },
+    BenchTest { name: "catenary", run: stretching::between_hooks },
+    BenchTest { name: "picture frame", run: shearing::picture_frame },
+    BenchTest { name: "bias extension", run: shearing::bias_extension },
+    BenchTest { name: "drape", run: cusick::cusick },
+    BenchTest { name: "hand tests", run: hand::measurements },
 ];
 
-impl Test {
+impl BenchTest {
     /// Tests specimens of `sample`.
     ///
     /// # Errors

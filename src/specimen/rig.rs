@@ -22,7 +22,7 @@ const STRETCH: usize = 10;
 const MOST: usize = 300;
 
 /// A flat sheet of one fabric, not yet held by anything.
-pub(super) struct Sheet {
+pub(super) struct SpecimenSheet {
     /// Flat positions and triangles.
     pub(super) mesh: ClothMesh,
     /// Its fabric.
@@ -43,7 +43,7 @@ pub(super) fn lift(fabric: &Fabric) -> f64 {
     0.5 * fabric.thickness + CLEARANCE
 }
 
-impl Sheet {
+impl SpecimenSheet {
     /// A rectangle `width` × `length` metres, its corner at the origin, its length along y and at `angle` (radians) to
     /// the warp.
     pub(super) fn strip(
@@ -153,7 +153,7 @@ pub(super) fn held_with(world: &World, nodes: &[u32]) -> Vec3 {
 /// # Errors
 /// As [`settle`].
 pub(super) fn drawn_out<'a>(
-    sheet: &Sheet,
+    sheet: &SpecimenSheet,
     length: f64,
     strain: f64,
     bench: &'a Collider,

@@ -1,8 +1,8 @@
 //! Shearing: the picture frame and the bias extension.
 
 use super::membrane::{BiasStrip, ORDERS};
-use super::rig::{ALONG_WARP, Sheet, drawn_out, nothing, settle};
-use super::{Figure, Known, Outcome, Sample, SpecimenError};
+use super::rig::{ALONG_WARP, SpecimenSheet, drawn_out, nothing, settle};
+use super::{BenchFigure, Known, Outcome, Sample, SpecimenError};
 use crate::geometry::{Vec2, Vec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
 
@@ -25,7 +25,7 @@ const MIDDLE: f64 = 0.4;
 /// the load is the fabric's shear stiffness times it.
 pub(super) fn picture_frame(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let (fabric, bench) = (&sample.fabric, nothing()?);
-    let sheet = Sheet::strip(fabric, [FRAME, FRAME], ALONG_WARP, SPACING)?;
+    let sheet = SpecimenSheet::strip(fabric, [FRAME, FRAME], ALONG_WARP, SPACING)?;
     let near = |a: f64| !(0.5 * SPACING..=FRAME - 0.5 * SPACING).contains(&a);
     let mut out = Vec::new();
     for drawn in DRAWN {
@@ -41,7 +41,7 @@ pub(super) fn picture_frame(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let turn = |p: &Vec2| Vec3::new(-(p.x - p.y) * half.cos(), (p.x + p.y) * half.sin(), 0.0) * 0.5;
         let forces = world.unbalanced();
         let work: f64 = rim.iter().map(|&n| -forces[n as usize].dot(&turn(&sheet.mesh.flat[n as usize]))).sum();
-        out.push(Figure {
+        out.push(BenchFigure {
             test: "picture frame",
             what: format!("shear load at {:.2}°", shear.to_degrees()),
             unit: "N/m",
@@ -57,7 +57,7 @@ pub(super) fn picture_frame(sample: &Sample) -> Result<Outcome, SpecimenError> {
 pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let (fabric, bench) = (&sample.fabric, nothing()?);
     let [width, length] = BIAS;
-    let sheet = Sheet::strip(fabric, BIAS, FRAC_PI_4, SPACING)?;
+    let sheet = SpecimenSheet::strip(fabric, BIAS, FRAC_PI_4, SPACING)?;
     let stiffness = [fabric.warp.slope(0.0), fabric.weft.slope(0.0), fabric.shear];
     let strip = BiasStrip { size: BIAS, stiffness, orders: ORDERS };
     let per_metre = strip.shear_in_the_middle(MIDDLE * width).ok_or(SpecimenError::Extreme)?;
@@ -67,7 +67,7 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
         let drawn = drawn_out(&sheet, length, way / length, &bench, STILL)?;
         let trellis = FRAC_PI_2 - 2.0 * ((1.0 + extended) / SQRT_2).acos();
         let known = Known::Value { value: (per_metre * way).to_degrees(), tolerance: 0.05 };
-        out.push(Figure {
+        out.push(BenchFigure {
             test: "bias extension",
             what: format!("shear in the middle at {} % (trellis {:.2}°)", 100.0 * extended, trellis.to_degrees()),
             unit: "°",
@@ -79,7 +79,7 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
 }
 
 /// Mean angle (radians) by which the threads of the triangles in the middle of a bias strip are off a right one.
-fn shear_in_the_middle(sheet: &Sheet, x: &[Vec3]) -> f64 {
+fn shear_in_the_middle(sheet: &SpecimenSheet, x: &[Vec3]) -> f64 {
     let [width, length] = BIAS;
     let middle = Vec2::new(0.5 * width, 0.5 * length);
     let (mut sum, mut count) = (0.0, 0.0);

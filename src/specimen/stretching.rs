@@ -1,7 +1,7 @@
 //! Stretching: a strip in a tensile tester, one that hangs, and one between two hooks.
 
-use super::rig::{ALONG_WARP, Sheet, WAYS, drawn_out, held_with, nothing, settle};
-use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
+use super::rig::{ALONG_WARP, SpecimenSheet, WAYS, drawn_out, held_with, nothing, settle};
+use super::{BenchFigure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::fabric::{Fabric, GRAVITY, TensileCurve};
 use crate::geometry::Vec3;
 
@@ -22,7 +22,7 @@ fn curve_of(fabric: &Fabric, angle: f64) -> &TensileCurve {
 
 /// Strain between two gauge marks a quarter of the strip from its jaws,
 /// which keep the cloth beside them from contracting.
-fn strain_in_the_middle(sheet: &Sheet, x: &[Vec3]) -> f64 {
+fn strain_in_the_middle(sheet: &SpecimenSheet, x: &[Vec3]) -> f64 {
     let length = TESTER[0];
     let [low, high] = [0.25, 0.75].map(|share| {
         let mark = sheet.particles(|p| (p.y - share * length).abs() < 0.5 * SPACING);
@@ -39,12 +39,12 @@ pub(super) fn pulled(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let [length, width] = TESTER;
     let mut out = Vec::new();
     for (angle, way) in WAYS {
-        let sheet = Sheet::strip(fabric, [width, length], angle, SPACING)?;
+        let sheet = SpecimenSheet::strip(fabric, [width, length], angle, SPACING)?;
         for &(strain, _) in curve_of(fabric, angle).points.iter().filter(|p| p.1 > 0.0) {
             let world = drawn_out(&sheet, length, strain, &bench, STILL)?;
             let jaw = sheet.particles(|p| p.y > length - 0.5 * SPACING);
             let strain = strain_in_the_middle(&sheet, &world.x);
-            out.push(Figure {
+            out.push(BenchFigure {
                 test: "pulled strip",
                 what: format!("{way}, load at {:.2} %", 100.0 * strain),
                 unit: "N/m",
@@ -61,7 +61,7 @@ pub(super) fn hanging(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let (fabric, bench) = (&sample.fabric, nothing()?);
     let [length, width] = HANGING;
     let measure = |(angle, way): (f64, &str)| {
-        let sheet = Sheet::strip(fabric, [width, length], angle, SPACING)?;
+        let sheet = SpecimenSheet::strip(fabric, [width, length], angle, SPACING)?;
         let cloth = sheet.cloth(|p| p.y < 0.5 * SPACING);
         let mut world = sheet.hang(cloth, sheet.placed(|p| Vec3::new(p.x, -p.y, 0.0)), &bench)?;
         settle(&mut world, SPACING, STILL)?;
@@ -71,7 +71,7 @@ pub(super) fn hanging(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let parts = 1000;
         let weight = fabric.areal_density * GRAVITY * length;
         let strain = |k: usize| curve_of(fabric, angle).strain(weight * (k as f64 + 0.5) / parts as f64);
-        Ok(Figure {
+        Ok(BenchFigure {
             test: "hanging strip",
             what: format!("{way}, drawn out by its weight"),
             unit: "mm",
@@ -89,7 +89,7 @@ pub(super) fn hanging(sample: &Sample) -> Result<Outcome, SpecimenError> {
 pub(super) fn between_hooks(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let (fabric, bench) = (&sample.fabric, nothing()?);
     let [length, width] = HANGING;
-    let sheet = Sheet::strip(fabric, [width, length], ALONG_WARP, SPACING)?;
+    let sheet = SpecimenSheet::strip(fabric, [width, length], ALONG_WARP, SPACING)?;
     let weight = fabric.areal_density * GRAVITY * length;
     let mut out = Vec::new();
     for slack in SLACK {
@@ -104,7 +104,7 @@ pub(super) fn between_hooks(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let jaw = sheet.particles(|p| p.y > length - 0.5 * SPACING);
         let pull = held_with(&world, &jaw).x / (weight * width);
         let [sag, level] = theory::catenary(span, |tension| fabric.warp.strain(tension * weight));
-        let figure = |what: &str, measured: f64, value: f64| Figure {
+        let figure = |what: &str, measured: f64, value: f64| BenchFigure {
             test: "catenary",
             what: format!("length {slack} of the span: {what}"),
             unit: "",

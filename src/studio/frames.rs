@@ -152,7 +152,7 @@ fn stages(run: &mut Run, send: &dyn Fn(Frame), sewn: &dyn Fn(&Run)) -> Result<()
     run.sew(&mut tell)?;
     sewn(run);
     run.drape(&mut tell)?;
-    run.flatten(&flatten::Options::default(), &mut tell)
+    run.flatten(&flatten::FlattenOptions::default(), &mut tell)
 }
 
 #[cfg(test)]

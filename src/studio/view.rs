@@ -12,7 +12,7 @@ use crate::geometry::{MM, Path, Vec2};
 use crate::io::garment::{KeyPath, Variant, read_file_only, scalars};
 use crate::mannequin;
 use crate::pattern::{
-    Cut, Diagnostic, GarmentFile, PieceFile, PlaceFile, PlaceWord, Severity, fabrics, glob, parse_quantity,
+    CutKind, Diagnostic, GarmentFile, PieceFile, PlaceFile, PlaceWord, Severity, fabrics, glob, parse_quantity,
     whole_pieces,
 };
 use crate::pipeline::check_text;
@@ -168,10 +168,10 @@ fn shown(piece: &PieceFile, said: &GarmentFile) -> PieceView {
     PieceView {
         like: piece.like.as_ref().map(|like| like.value.clone()),
         cut: match piece.cut.as_ref().map(|cut| &cut.value) {
-            None | Some(Cut::One) => "once".to_owned(),
-            Some(Cut::Pair) => "as a pair".to_owned(),
-            Some(Cut::Fold(edge)) => format!("on the fold at {edge}"),
-            Some(Cut::Count(times)) => format!("{times} times"),
+            None | Some(CutKind::One) => "once".to_owned(),
+            Some(CutKind::Pair) => "as a pair".to_owned(),
+            Some(CutKind::Fold(edge)) => format!("on the fold at {edge}"),
+            Some(CutKind::Count(times)) => format!("{times} times"),
         },
         place: piece.place.as_ref().map(|place| match &place.value {
             PlaceFile::Words(words) => words.clone(),
@@ -197,7 +197,7 @@ fn edge_view(piece: &str, edge: &str, path: &Path, file: &PieceFile, said: &Garm
         middle: [middle.x, middle.y],
         seams: own.map(|seam| seam.name.value.clone()).collect(),
         free: said.free.iter().any(|free| glob(&bare(&free.value), &full)),
-        fold: file.cut.as_ref().is_some_and(|cut| cut.value == Cut::Fold(edge.to_owned())),
+        fold: file.cut.as_ref().is_some_and(|cut| cut.value == CutKind::Fold(edge.to_owned())),
     }
 }
 

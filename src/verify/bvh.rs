@@ -7,12 +7,12 @@ const LEAF: usize = 4;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(super) struct Aabb {
     pub(super) lo: Vec3,
     pub(super) hi: Vec3,
 }
 
-impl Bounds {
+impl Aabb {
     const EMPTY: Self = Self {
         lo: Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         hi: Vec3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -44,8 +44,8 @@ impl Bounds {
 
 /// Contents of a node of the tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Held {
-    /// `Tree::order[start..end]`.
+pub(super) enum BvhContents {
+    /// `Bvh::order[start..end]`.
     Triangles { start: u32, end: u32 },
     /// Node indices, both larger than the node's own.
     Nodes { left: u32, right: u32 },
@@ -53,23 +53,23 @@ pub(super) enum Held {
 
 /// A box and its contents.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) bounds: Bounds,
-    pub(super) held: Held,
+pub(super) struct BvhNode {
+    pub(super) bounds: Aabb,
+    pub(super) held: BvhContents,
 }
 
 /// The tree. Node 0 is the root. A mesh without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tree {
-    pub(super) nodes: Vec<Node>,
+pub(super) struct Bvh {
+    pub(super) nodes: Vec<BvhNode>,
     pub(super) order: Vec<u32>,
-    boxes: Vec<Bounds>,
+    boxes: Vec<Aabb>,
 }
 
-impl Tree {
+impl Bvh {
     /// Splits at the median of the widest side: balanced, and the same for the same mesh.
     pub(super) fn new(mesh: &TriMesh) -> Self {
-        let boxes: Vec<Bounds> = (0..mesh.triangles.len()).map(|t| Bounds::of(&mesh.corners(t))).collect();
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::of(&mesh.corners(t))).collect();
         let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len() as u32).collect(), boxes };
         if !tree.order.is_empty() {
             let mut order = std::mem::take(&mut tree.order);
@@ -81,10 +81,10 @@ impl Tree {
 
     /// Builds the node over `part`, which begins at `start` in the order, and returns its index.
     fn build(&mut self, part: &mut [u32], start: usize) -> u32 {
-        let bounds = part.iter().fold(Bounds::EMPTY, |b, &t| b.joined(&self.boxes[t as usize]));
+        let bounds = part.iter().fold(Aabb::EMPTY, |b, &t| b.joined(&self.boxes[t as usize]));
         let at = self.nodes.len();
-        let held = Held::Triangles { start: start as u32, end: (start + part.len()) as u32 };
-        self.nodes.push(Node { bounds, held });
+        let held = BvhContents::Triangles { start: start as u32, end: (start + part.len()) as u32 };
+        self.nodes.push(BvhNode { bounds, held });
         if part.len() > LEAF {
             let axis = (bounds.hi - bounds.lo).imax();
             let middle = part.len() / 2;
@@ -94,18 +94,18 @@ impl Tree {
             let (low, high) = part.split_at_mut(middle);
             let left = self.build(low, start);
             let right = self.build(high, start + middle);
-            self.nodes[at].held = Held::Nodes { left, right };
+            self.nodes[at].held = BvhContents::Nodes { left, right };
         }
         at as u32
     }
 
     /// The box of triangle `t`.
-    pub(super) fn bounds(&self, t: u32) -> &Bounds {
+    pub(super) fn bounds(&self, t: u32) -> &Aabb {
         &self.boxes[t as usize]
     }
 
     /// Calls `visit` with every triangle whose box meets `bounds`.
-    pub(super) fn visit_box(&self, bounds: &Bounds, mut visit: impl FnMut(u32)) {
+    pub(super) fn visit_box(&self, bounds: &Aabb, mut visit: impl FnMut(u32)) {
         let mut open = if self.nodes.is_empty() { vec![] } else { vec![0u32] };
         while let Some(at) = open.pop() {
             let node = &self.nodes[at as usize];
@@ -113,8 +113,8 @@ impl Tree {
                 continue;
             }
             match node.held {
-                Held::Nodes { left, right } => open.extend([right, left]),
-                Held::Triangles { start, end } => {
+                BvhContents::Nodes { left, right } => open.extend([right, left]),
+                BvhContents::Triangles { start, end } => {
                     let near = self.order[start as usize..end as usize].iter();
                     near.filter(|&&t| self.bounds(t).meets(bounds)).for_each(|&t| visit(t));
                 }
@@ -131,12 +131,12 @@ impl Tree {
                 continue;
             }
             match self.nodes[at as usize].held {
-                Held::Triangles { start, end } => {
+                BvhContents::Triangles { start, end } => {
                     for &t in &self.order[start as usize..end as usize] {
                         best = best.min(squared_distance(p, &mesh.corners(t as usize)));
                     }
                 }
-                Held::Nodes { left, right } => {
+                BvhContents::Nodes { left, right } => {
                     let mut pair = [left, right].map(|n| (self.nodes[n as usize].bounds.squared_distance(p), n));
                     // The nearer one is popped, and so searched, first.
                     pair.sort_by(|x, y| y.0.total_cmp(&x.0));

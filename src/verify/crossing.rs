@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::bvh::{Bounds, Tree};
+use super::bvh::{Aabb, Bvh};
 use super::orient::orient;
 use crate::geometry::{TriMesh, Vec3, sorted_pair};
 
@@ -33,7 +33,7 @@ pub struct Between {
 /// do so away from it. Two that share a side never do. A side belongs to the triangles that name the same two vertices.
 /// A triangle without area crosses what its sides pass through strictly. The test is exact.
 pub fn crossings(mesh: &TriMesh) -> Vec<[u32; 2]> {
-    let (tree, surface) = (Tree::new(mesh), Surface::new(mesh));
+    let (tree, surface) = (Bvh::new(mesh), Surface::new(mesh));
     let shares_side = |t: u32, other: u32| {
         let [one, two] = [t, other].map(|t| mesh.triangles[t as usize]);
         one.iter().filter(|v| two.contains(v)).count() > 1
@@ -47,7 +47,7 @@ pub fn crossings(mesh: &TriMesh) -> Vec<[u32; 2]> {
 
 /// Triangles of `cloth` that cross triangles of `body`, with the meaning of [`crossings`].
 pub fn crossings_between(cloth: &TriMesh, body: &TriMesh) -> Between {
-    let tree = Tree::new(body);
+    let tree = Bvh::new(body);
     let [cloth, body] = [cloth, body].map(Surface::new);
     let found = (0..cloth.mesh.triangles.len() as u32).into_par_iter().flat_map_iter(|t| {
         let hit = crossed(&cloth, t, &body, &tree, |_| true);
@@ -60,9 +60,9 @@ pub fn crossings_between(cloth: &TriMesh, body: &TriMesh) -> Between {
 }
 
 /// Triangles of `of` that pass `wanted` and cross triangle `t` of `from`. Sorted.
-fn crossed(from: &Surface, t: u32, of: &Surface, tree: &Tree, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+fn crossed(from: &Surface, t: u32, of: &Surface, tree: &Bvh, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
     let mut found = Vec::new();
-    tree.visit_box(&Bounds::of(&from.mesh.corners(t as usize)), |other| {
+    tree.visit_box(&Aabb::of(&from.mesh.corners(t as usize)), |other| {
         if wanted(other) && cross([from, of], [t, other]) {
             found.push(other);
         }

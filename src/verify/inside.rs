@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::bvh::{Held, Tree};
+use super::bvh::{Bvh, BvhContents};
 use crate::geometry::{TriMesh, Vec3};
 
 /// Points this near to the surface (metres) touch it: the resolution of the files written.
@@ -39,7 +39,7 @@ impl Inside {
 /// The `points` that lie inside `body`, a closed mesh whose triangles run counter-clockwise seen from outside.
 /// Points within a nanometre of the surface are not inside.
 pub fn inside(points: &[Vec3], body: &TriMesh) -> Inside {
-    let tree = Tree::new(body);
+    let tree = Bvh::new(body);
     let patches = patches(body, &tree);
     let depth: Vec<f64> = points
         .par_iter()
@@ -57,13 +57,13 @@ pub fn inside(points: &[Vec3], body: &TriMesh) -> Inside {
 
 /// Distance of every one of `points` from the surface of `body`, metres.
 pub fn distances(points: &[Vec3], body: &TriMesh) -> Vec<f64> {
-    let tree = Tree::new(body);
+    let tree = Bvh::new(body);
     points.par_iter().map(|p| tree.distance(body, p)).collect()
 }
 
 /// All triangles below a node as one small patch.
 #[derive(Clone, Copy)]
-struct Patch {
+struct TriangleCluster {
     /// Sum of the area vectors.
     area: Vec3,
     /// Area-weighted centre.
@@ -73,13 +73,13 @@ struct Patch {
 }
 
 /// One patch per node of the tree.
-fn patches(mesh: &TriMesh, tree: &Tree) -> Vec<Patch> {
+fn patches(mesh: &TriMesh, tree: &Bvh) -> Vec<TriangleCluster> {
     let mut sums = vec![(Vec3::zeros(), Vec3::zeros(), 0.0); tree.nodes.len()];
     // Children come after their parent, so backwards every node finds its children done.
     for at in (0..tree.nodes.len()).rev() {
         sums[at] = match tree.nodes[at].held {
-            Held::Nodes { left, right } => add(sums[left as usize], sums[right as usize]),
-            Held::Triangles { start, end } => {
+            BvhContents::Nodes { left, right } => add(sums[left as usize], sums[right as usize]),
+            BvhContents::Triangles { start, end } => {
                 tree.order[start as usize..end as usize].iter().fold((Vec3::zeros(), Vec3::zeros(), 0.0), |sum, &t| {
                     let area = mesh.double_normal(t as usize) / 2.0;
                     let [a, b, c] = mesh.corners(t as usize);
@@ -88,9 +88,9 @@ fn patches(mesh: &TriMesh, tree: &Tree) -> Vec<Patch> {
             }
         };
     }
-    let patch = |(&(area, moment, size), node): (&(Vec3, Vec3, f64), &super::bvh::Node)| {
+    let patch = |(&(area, moment, size), node): (&(Vec3, Vec3, f64), &super::bvh::BvhNode)| {
         let center = if size > 0.0 { moment / size } else { (node.bounds.lo + node.bounds.hi) / 2.0 };
-        Patch { area, center, radius: node.bounds.farthest(&center) }
+        TriangleCluster { area, center, radius: node.bounds.farthest(&center) }
     };
     sums.iter().zip(&tree.nodes).map(patch).collect()
 }
@@ -100,7 +100,7 @@ fn add(a: (Vec3, Vec3, f64), b: (Vec3, Vec3, f64)) -> (Vec3, Vec3, f64) {
 }
 
 /// Winding number of the surface round `p`.
-fn winding(mesh: &TriMesh, tree: &Tree, patches: &[Patch], p: &Vec3) -> f64 {
+fn winding(mesh: &TriMesh, tree: &Bvh, patches: &[TriangleCluster], p: &Vec3) -> f64 {
     // Outside the box of a closed surface nothing winds round a point.
     if tree.nodes.first().is_none_or(|root| root.bounds.squared_distance(p) > 0.0) {
         return 0.0;
@@ -116,8 +116,8 @@ fn winding(mesh: &TriMesh, tree: &Tree, patches: &[Patch], p: &Vec3) -> f64 {
             continue;
         }
         match tree.nodes[at as usize].held {
-            Held::Nodes { left, right } => open.extend([left, right]),
-            Held::Triangles { start, end } => {
+            BvhContents::Nodes { left, right } => open.extend([left, right]),
+            BvhContents::Triangles { start, end } => {
                 let near = tree.order[start as usize..end as usize].iter();
                 angle += near.map(|&t| solid_angle(p, &mesh.corners(t as usize))).sum::<f64>();
             }

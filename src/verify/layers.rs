@@ -1,6 +1,6 @@
 //! The layers of cloth that lie on one another.
 
-use super::bvh::{Bounds, Tree};
+use super::bvh::{Aabb, Bvh};
 use crate::geometry::{TriMesh, Vec3};
 
 /// A line this near to the plane of a triangle (cosine to its normal) does not meet it: it runs along that layer.
@@ -20,19 +20,19 @@ pub struct Layer {
 /// A surface that is asked for its layers.
 pub struct Layers<'a> {
     surface: &'a TriMesh,
-    tree: Tree,
+    tree: Bvh,
 }
 
 impl<'a> Layers<'a> {
     /// Prepares `surface`.
     pub fn new(surface: &'a TriMesh) -> Self {
-        Self { surface, tree: Tree::new(surface) }
+        Self { surface, tree: Bvh::new(surface) }
     }
 
     /// The triangles that the line through `from` along the unit `way` meets within `reach` (metres) of `from`, before
     /// or behind it. Those that `skip` takes are left out. In the order of their indices.
     pub fn near(&self, from: Vec3, way: Vec3, reach: f64, skip: impl Fn(u32) -> bool) -> Vec<Layer> {
-        let bounds = Bounds::of(&[from - way * reach, from + way * reach]);
+        let bounds = Aabb::of(&[from - way * reach, from + way * reach]);
         let mut found = Vec::new();
         self.tree.visit_box(&bounds, |triangle| {
             let layer = meet(self.surface.corners(triangle as usize), from, way)

@@ -25,6 +25,6 @@ mod worn;
 pub use crossing::{Between, crossings, crossings_between};
 pub use inside::{Inside, distances, inside};
 pub use layers::{Layer, Layers};
-pub use section::{CutPoint, Ring, ring};
+pub use section::{ClothRing, CutPoint, ring};
 pub use welded::Welded;
 pub use worn::{Passage, Through, is_dealt, past_end, worn};

@@ -22,14 +22,14 @@ pub struct CutPoint {
 
 /// Cloth round an axis, in a plane.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ring {
+pub struct ClothRing {
     /// Points in order. The last is followed by the first.
     pub points: Vec<CutPoint>,
     /// The triangle through which a point is joined with the next one. `None` where no cloth is between them.
     pub through: Vec<Option<u32>>,
 }
 
-impl Ring {
+impl ClothRing {
     /// Its points, each with the next one and the triangle between them.
     pub fn steps(&self) -> impl Iterator<Item = (&CutPoint, &CutPoint, Option<u32>)> {
         let next = self.points.iter().cycle().skip(1);
@@ -43,7 +43,7 @@ impl Ring {
 
     /// How often it runs round `center`, in the plane with the unit normal `axis`.
     pub fn turns(&self, center: Vec3, axis: Vec3) -> i64 {
-        let plane = Plane::new(center, axis);
+        let plane = SectionPlane::new(center, axis);
         self.steps().map(|(p, q, _)| plane.crossed(plane.flat(p.at), plane.flat(q.at))).sum()
     }
 }
@@ -52,21 +52,21 @@ impl Ring {
 /// where the cloth does not go round it.
 ///
 /// Of several layers this is the innermost. Folds count with all their cloth. Cloth that laps over itself counts once.
-pub fn ring(surface: &TriMesh, center: Vec3, axis: Vec3) -> Option<Ring> {
-    let plane = Plane::new(center, axis);
-    let section = Section::new(surface, &plane);
+pub fn ring(surface: &TriMesh, center: Vec3, axis: Vec3) -> Option<ClothRing> {
+    let plane = SectionPlane::new(center, axis);
+    let section = PlaneSection::new(surface, &plane);
     section.shortest(&plane)
 }
 
 /// A plane with a direction of its own and a center.
-struct Plane {
+struct SectionPlane {
     center: Vec3,
     axis: Vec3,
     u: Vec3,
     v: Vec3,
 }
 
-impl Plane {
+impl SectionPlane {
     fn new(center: Vec3, axis: Vec3) -> Self {
         let u = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
         Self { center, axis, u, v: axis.cross(&u) }
@@ -93,7 +93,7 @@ impl Plane {
 
 /// A way from one point of a section to another.
 #[derive(Clone, Copy)]
-struct Way {
+struct SectionWay {
     to: usize,
     length: f64,
     through: Option<u32>,
@@ -101,13 +101,13 @@ struct Way {
 }
 
 /// All points at which a plane cuts a surface, and the ways between them.
-struct Section {
+struct PlaneSection {
     points: Vec<CutPoint>,
-    ways: Vec<Vec<Way>>,
+    ways: Vec<Vec<SectionWay>>,
 }
 
-impl Section {
-    fn new(surface: &TriMesh, plane: &Plane) -> Self {
+impl PlaneSection {
+    fn new(surface: &TriMesh, plane: &SectionPlane) -> Self {
         let side: Vec<f64> = surface.vertices.iter().map(|p| (p - plane.center).dot(&plane.axis)).collect();
         let mut index: BTreeMap<[u32; 2], usize> = BTreeMap::new();
         let mut out = Self { points: Vec::new(), ways: Vec::new() };
@@ -135,15 +135,15 @@ impl Section {
         out
     }
 
-    fn join(&mut self, plane: &Plane, [p, q]: [usize; 2], through: Option<u32>) {
+    fn join(&mut self, plane: &SectionPlane, [p, q]: [usize; 2], through: Option<u32>) {
         let [from, to] = [p, q].map(|k| self.points[k].at);
         let (length, crossed) = ((to - from).norm(), plane.crossed(plane.flat(from), plane.flat(to)));
-        self.ways[p].push(Way { to: q, length, through, crossed });
-        self.ways[q].push(Way { to: p, length, through, crossed: -crossed });
+        self.ways[p].push(SectionWay { to: q, length, through, crossed });
+        self.ways[q].push(SectionWay { to: p, length, through, crossed: -crossed });
     }
 
     /// Joins the ends of cloth with everything near them.
-    fn bridge(&mut self, plane: &Plane) {
+    fn bridge(&mut self, plane: &SectionPlane) {
         let ends: Vec<usize> = (0..self.points.len()).filter(|&k| self.ways[k].len() == 1).collect();
         for (n, &end) in ends.iter().enumerate() {
             let neighbour = self.ways[end][0].to;
@@ -158,8 +158,8 @@ impl Section {
     }
 
     /// The shortest closed way that crosses the ray from the center once more in one direction than in the other.
-    fn shortest(&self, plane: &Plane) -> Option<Ring> {
-        let mut best: Option<(f64, Vec<(usize, Way)>)> = None;
+    fn shortest(&self, plane: &SectionPlane) -> Option<ClothRing> {
+        let mut best: Option<(f64, Vec<(usize, SectionWay)>)> = None;
         let starts = (0..self.points.len()).filter(|&k| self.ways[k].iter().any(|way| way.crossed > 0));
         for start in starts {
             let limit = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length);
@@ -168,7 +168,7 @@ impl Section {
             }
         }
         let (_, ways) = best?;
-        let ring = Ring {
+        let ring = ClothRing {
             points: ways.iter().map(|(from, _)| self.points[*from]).collect(),
             through: ways.iter().map(|(_, way)| way.through).collect(),
         };
@@ -177,7 +177,7 @@ impl Section {
 
     /// The shortest way from `start` back to it that goes round once and is shorter than `limit` (Dijkstra's algorithm
     /// over points and turns).
-    fn round(&self, start: usize, limit: f64) -> Option<(f64, Vec<(usize, Way)>)> {
+    fn round(&self, start: usize, limit: f64) -> Option<(f64, Vec<(usize, SectionWay)>)> {
         /// Turns that a way may be ahead or behind.
         const TURNS: i64 = 1;
         let levels = 2 * TURNS + 1;

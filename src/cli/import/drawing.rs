@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Imported, Seams, finish};
-use crate::cli::args::{DrawingArgs, TargetArgs};
+use super::{Imported, KnownSeams, finish};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
+use crate::cli::import_args::{DrawingArgs, TargetArgs};
 use crate::digitize::{Drawing, garment_file, sewn};
+use crate::input::stem;
 use crate::io::dxf_read::{DxfOptions, read_dxf};
 use crate::io::garment::seam_line;
 use crate::io::svg_read::{SvgOptions, read_svg};
@@ -58,7 +59,7 @@ fn import(
 fn sized(output: &Path, size: &str) -> PathBuf {
     let kept = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
     let size: String = size.chars().map(kept).collect();
-    let stem = output.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = stem(output);
     let ending = output.extension().map_or_else(String::new, |e| format!(".{}", e.to_string_lossy()));
     output.with_file_name(format!("{stem}_{size}{ending}"))
 }
@@ -73,7 +74,7 @@ fn write(args: &DrawingArgs, target: &TargetArgs, drawing: &Drawing, console: &C
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
     let file = if args.seams { sewn(&made.file, &made.suggestions) } else { made.file.clone() };
     let offers: Vec<(SeamFile, String)> = made.suggestions.iter().map(|s| (s.seam(), s.reason())).collect();
-    let seams = if args.seams { Seams::Taken(&offers) } else { Seams::Offered(&offers) };
+    let seams = if args.seams { KnownSeams::Taken(&offers) } else { KnownSeams::Offered(&offers) };
     let complaints = drawing.complaints();
     let exit = finish(&Imported { source: &args.drawing, target, file: &file, seams, complaints }, console)?;
     drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));

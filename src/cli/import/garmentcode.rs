@@ -1,9 +1,9 @@
 //! `import garmentcode`
 
-use super::{Imported, Seams, finish, text};
-use crate::cli::args::GarmentcodeArgs;
+use super::{Imported, KnownSeams, finish, text};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
+use crate::cli::import_args::GarmentcodeArgs;
 use crate::io::body::floor_of;
 use crate::io::garmentcode::{Wearer, read};
 
@@ -19,5 +19,5 @@ pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, 
     let file = read(name, &text, Wearer { body: body.as_deref(), floor });
     let file = file.map_err(|e| refused(e.to_string()))?;
     let (target, complaints) = (&args.target, Vec::new());
-    finish(&Imported { source: &args.spec, target, file: &file, seams: Seams::Read, complaints }, console)
+    finish(&Imported { source: &args.spec, target, file: &file, seams: KnownSeams::Read, complaints }, console)
 }

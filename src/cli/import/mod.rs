@@ -7,9 +7,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::{ImportCommand, SvgUnitArg, TargetArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::import_args::{ImportCommand, SvgUnitArg, TargetArgs};
 use crate::input::bytes;
 use crate::io::files::{check_writable, relative, write_all};
 use crate::io::garment::{EncodeError, write, write_with_offers};
@@ -52,13 +53,13 @@ struct Imported<'a> {
     source: &'a Path,
     target: &'a TargetArgs,
     file: &'a GarmentFile,
-    seams: Seams<'a>,
+    seams: KnownSeams<'a>,
     /// The faults of the input.
     complaints: Vec<String>,
 }
 
 /// The seams of a pattern that are known.
-enum Seams<'a> {
+enum KnownSeams<'a> {
     /// Those of the file.
     Read,
     /// They were guessed, each with what is said of it: remarks of the file.
@@ -70,16 +71,16 @@ enum Seams<'a> {
 impl Imported<'_> {
     fn text(&self) -> Result<String, EncodeError> {
         match self.seams {
-            Seams::Offered(seams) => write_with_offers(self.file, seams),
-            Seams::Read | Seams::Taken(_) => write(self.file),
+            KnownSeams::Offered(seams) => write_with_offers(self.file, seams),
+            KnownSeams::Read | KnownSeams::Taken(_) => write(self.file),
         }
     }
 
     /// The pieces with all seams that are known, each with a line that tells it.
     fn picture(&self) -> Result<Vec<u8>, CliError> {
         let lines: Vec<(SeamFile, String)> = match self.seams {
-            Seams::Read => self.file.seams.iter().map(|seam| (seam.clone(), String::new())).collect(),
-            Seams::Offered(seams) | Seams::Taken(seams) => seams.to_vec(),
+            KnownSeams::Read => self.file.seams.iter().map(|seam| (seam.clone(), String::new())).collect(),
+            KnownSeams::Offered(seams) | KnownSeams::Taken(seams) => seams.to_vec(),
         };
         let side = |edges: &[Located<String>]| edges.iter().map(|e| e.value.clone()).collect::<Vec<_>>().join(" + ");
         let told = |(seam, said): (SeamFile, String)| {
@@ -96,7 +97,7 @@ fn unwritable(error: EncodeError) -> CliError {
 
 /// The result.
 #[derive(Serialize)]
-struct Summary {
+struct ImportSummary {
     file: String,
     /// The picture of the pieces and their seams.
     picture: String,
@@ -130,7 +131,7 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
     imported.complaints.iter().for_each(|complaint| console.complain(complaint));
     let ok = checked.is_ok() && imported.complaints.is_empty();
     let (pieces, seams) = (imported.file.pieces.len(), imported.file.seams.len());
-    let summary = Summary { file: shown, picture: picture.display().to_string(), pieces, seams, ok };
+    let summary = ImportSummary { file: shown, picture: picture.display().to_string(), pieces, seams, ok };
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let made = format!("{} and {}", counted(pieces, "piece"), counted(seams, "seam"));
     console.results(&summary, || format!("{made}, written to {} and drawn in {}\n", summary.file, summary.picture))?;

@@ -7,14 +7,14 @@ pub(super) const ROUNDING: f64 = 1e-9;
 
 /// A shape in columns of equal width from its left side on. Lengths are metres, y down.
 #[derive(Clone, Debug)]
-pub(super) struct Columns {
+pub(super) struct ShapeColumns {
     /// For every column the stretches that cover the shape there, from the top down, apart from each other.
     pub(super) taken: Vec<Vec<[f64; 2]>>,
     /// Width and height of the shape itself.
     pub(super) size: Vec2,
 }
 
-impl Columns {
+impl ShapeColumns {
     /// The shape within a closed outline, moved to the origin. Each column has the hulls of the parts of the shape
     /// between neighbouring corners of the outline.
     pub(super) fn new(outline: &[Vec2], column: f64) -> Self {
@@ -72,11 +72,11 @@ mod tests {
     fn columns_cover_a_shape_and_leave_its_bays_open() {
         // A U: 30 wide, 20 high, with a bay of 10 by 15 from above.
         let u = [[0., 0.], [10., 0.], [10., 15.], [20., 15.], [20., 0.], [30., 0.], [30., 20.], [0., 20.]];
-        let columns = Columns::new(&u.map(Vec2::from), 5.0);
+        let columns = ShapeColumns::new(&u.map(Vec2::from), 5.0);
         let expected = [[0.0, 20.0], [0.0, 20.0], [15.0, 20.0], [15.0, 20.0], [0.0, 20.0], [0.0, 20.0]];
         assert_eq!(columns.taken, expected.map(|stretch| [stretch]));
         let triangle = [[0., 0.], [40., 0.], [0., 40.]].map(Vec2::from);
-        let columns = Columns::new(&triangle, 10.0);
+        let columns = ShapeColumns::new(&triangle, 10.0);
         assert_eq!(columns.taken, [[[0., 40.]], [[0., 30.]], [[0., 20.]], [[0., 10.]]]);
     }
 }

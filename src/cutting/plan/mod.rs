@@ -11,9 +11,9 @@ mod strip;
 use nalgebra::Matrix2;
 
 use super::clean::double_area;
-use super::{Cloth, Paper, Sheet};
+use super::{ClothLength, Paper, Sheet};
 use crate::geometry::{MM, Vec2, box_of};
-use columns::Columns;
+use columns::ShapeColumns;
 use order::laid;
 use strip::Item;
 
@@ -71,12 +71,12 @@ pub struct Plan {
     /// Area of all pieces as cut, m².
     pub area: f64,
     /// The pieces where they lie: metres from the fold, or the left selvedge, and from the beginning of the cloth.
-    pub papers: Vec<Laid>,
+    pub papers: Vec<LaidPaper>,
 }
 
 /// A piece on the cloth.
 #[derive(Clone, Debug)]
-pub struct Laid {
+pub struct LaidPaper {
     /// Where it lies.
     pub paper: Paper,
     /// Whether it is turned by half.
@@ -129,7 +129,7 @@ fn plan(drawn: &[Paper], whole: &[Paper], options: &PlanOptions) -> Result<Plan,
     let single: Vec<Paper> = whole.iter().filter(is_left).cloned().collect();
     let (mut papers, folded) = lay(&doubled, half, true, options)?;
     let (rest, open) = lay(&single, options.width, false, options)?;
-    papers.extend(rest.into_iter().map(|laid| Laid { paper: moved(&laid.paper, Vec2::new(0.0, folded)), ..laid }));
+    papers.extend(rest.into_iter().map(|laid| LaidPaper { paper: moved(&laid.paper, Vec2::new(0.0, folded)), ..laid }));
     let first = &whole[0];
     Ok(Plan {
         fabric: first.fabric.clone(),
@@ -190,7 +190,7 @@ fn ways(paper: &Paper, folded: bool, nap: bool) -> Vec<(Paper, bool, bool)> {
 }
 
 /// Lays papers on cloth of a width, and says how much of it they take.
-fn lay(papers: &[Paper], width: f64, folded: bool, options: &PlanOptions) -> Result<(Vec<Laid>, f64), PlanError> {
+fn lay(papers: &[Paper], width: f64, folded: bool, options: &PlanOptions) -> Result<(Vec<LaidPaper>, f64), PlanError> {
     if papers.is_empty() {
         return Ok((Vec::new(), 0.0));
     }
@@ -201,17 +201,17 @@ fn lay(papers: &[Paper], width: f64, folded: bool, options: &PlanOptions) -> Res
     let all: Vec<Vec<(Paper, bool, bool)>> = papers.iter().map(|p| ways(p, folded, options.nap)).collect();
     let [coarse, fine] = COLUMNS.map(|column| {
         let item = |ways: &Vec<(Paper, bool, bool)>| Item {
-            ways: ways.iter().map(|(paper, _, _)| Columns::new(&outline(paper), column)).collect(),
+            ways: ways.iter().map(|(paper, _, _)| ShapeColumns::new(&outline(paper), column)).collect(),
             at_fold: folded && ways[0].0.fold.is_some(),
         };
         all.iter().map(item).collect::<Vec<Item>>()
     });
     let Some(found) = laid(&coarse, &fine, width, COLUMNS) else { return Ok((Vec::new(), 0.0)) };
-    let put = |(ways, spot): (&Vec<(Paper, bool, bool)>, &strip::Spot)| {
+    let put = |(ways, spot): (&Vec<(Paper, bool, bool)>, &strip::StripSpot)| {
         let (paper, turned, flipped) = &ways[spot.way];
         let [low, _] = box_of(outline(paper));
         let pieces = if folded && paper.fold.is_none() { 2 } else { 1 };
-        Laid { paper: moved(paper, spot.corner - low), turned: *turned, flipped: *flipped, pieces, folded }
+        LaidPaper { paper: moved(paper, spot.corner - low), turned: *turned, flipped: *flipped, pieces, folded }
     };
     Ok((all.iter().zip(&found.spots).map(put).collect(), found.length))
 }
@@ -227,7 +227,12 @@ pub fn plan_sheet(plans: &[Plan]) -> Sheet {
             let width = if folded { 0.5 * plan.width } else { plan.width };
             let own = plan.papers.iter().filter(|laid| laid.folded == folded);
             papers.extend(own.map(|laid| moved(&laid.paper, corner - Vec2::new(0.0, from))));
-            cloth.push(Cloth { corner, size: Vec2::new(width, length), folded, text: said(plan, folded, length) });
+            cloth.push(ClothLength {
+                corner,
+                size: Vec2::new(width, length),
+                folded,
+                text: said(plan, folded, length),
+            });
             wide = wide.max(width);
             y += HEAD + length;
         }

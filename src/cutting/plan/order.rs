@@ -1,6 +1,6 @@
 //! The order in which pieces are laid: several by size, and the best of these improved by chance, always the same.
 
-use super::strip::{Item, Spot, Strip};
+use super::strip::{Item, Strip, StripSpot};
 use crate::parallel;
 
 /// Orders that are tried side by side from the best so far, and how often.
@@ -14,8 +14,8 @@ const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Pieces laid: their spots in the order of the items, and the length of cloth.
 #[derive(Clone, Debug)]
-pub(super) struct Laid {
-    pub(super) spots: Vec<Spot>,
+pub(super) struct LaidOrder {
+    pub(super) spots: Vec<StripSpot>,
     pub(super) length: f64,
     order: Vec<usize>,
     rank: f64,
@@ -23,16 +23,16 @@ pub(super) struct Laid {
 
 /// Lays pieces on cloth of this width: in many orders on coarse columns, and in the best ones on fine ones. `None`
 /// where one is wider than the cloth.
-pub(super) fn laid(coarse: &[Item], fine: &[Item], width: f64, [wide, narrow]: [f64; 2]) -> Option<Laid> {
-    let mut tried: Vec<Laid> =
+pub(super) fn laid(coarse: &[Item], fine: &[Item], width: f64, [wide, narrow]: [f64; 2]) -> Option<LaidOrder> {
+    let mut tried: Vec<LaidOrder> =
         starts(coarse).into_iter().map(|order| lay(coarse, width, wide, order)).collect::<Option<_>>()?;
     tried.sort_by(|a, b| a.rank.total_cmp(&b.rank));
     let mut best = tried[0].clone();
-    let mut chance = Chance(SEED);
+    let mut random = Xorshift64(SEED);
     for _ in 0..if coarse.len() > 1 { ROUNDS } else { 0 } {
-        let orders: Vec<Vec<usize>> = (0..SIDE_BY_SIDE).map(|_| chance.changed(&best.order)).collect();
+        let orders: Vec<Vec<usize>> = (0..SIDE_BY_SIDE).map(|_| random.changed(&best.order)).collect();
         let round = parallel::map(SIDE_BY_SIDE, 1, |k| lay(coarse, width, wide, orders[k].clone()));
-        let round: Vec<Laid> = round.into_iter().collect::<Option<_>>()?;
+        let round: Vec<LaidOrder> = round.into_iter().collect::<Option<_>>()?;
         if let Some(better) = round.into_iter().filter(|l| l.rank < best.rank).min_by(|a, b| a.rank.total_cmp(&b.rank))
         {
             tried.push(std::mem::replace(&mut best, better));
@@ -45,16 +45,16 @@ pub(super) fn laid(coarse: &[Item], fine: &[Item], width: f64, [wide, narrow]: [
     fine.into_iter().flatten().min_by(|a, b| a.rank.total_cmp(&b.rank))
 }
 
-fn lay(items: &[Item], width: f64, column: f64, order: Vec<usize>) -> Option<Laid> {
+fn lay(items: &[Item], width: f64, column: f64, order: Vec<usize>) -> Option<LaidOrder> {
     let mut strip = Strip::new(width, column);
-    let mut spots = vec![Spot::default(); items.len()];
+    let mut spots = vec![StripSpot::default(); items.len()];
     let mut ends = 0.0;
     for &k in &order {
         spots[k] = strip.lay(&items[k])?;
         ends += spots[k].corner.y + items[k].ways[spots[k].way].size.y;
     }
     let rank = strip.length + MEAN * ends / items.len().max(1) as f64;
-    Some(Laid { spots, length: strip.length, order, rank })
+    Some(LaidOrder { spots, length: strip.length, order, rank })
 }
 
 /// Orders by area of the box, height, width and circumference, the largest first.
@@ -70,10 +70,10 @@ fn starts(items: &[Item]) -> Vec<Vec<usize>> {
     keys.into_iter().map(by).collect()
 }
 
-/// A generator of numbers (xorshift, Marsaglia 2003).
-struct Chance(u64);
+/// A generator of numbers (Marsaglia 2003). Plans that have been made follow from its numbers.
+struct Xorshift64(u64);
 
-impl Chance {
+impl Xorshift64 {
     fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

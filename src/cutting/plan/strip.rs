@@ -1,20 +1,20 @@
 //! Cloth with pieces laid on it, one after the other, each as far up as it goes.
 
-use super::columns::{Columns, ROUNDING, merged};
+use super::columns::{ROUNDING, ShapeColumns, merged};
 use crate::geometry::Vec2;
 
 /// A piece that is to be laid.
 #[derive(Clone, Debug)]
 pub(super) struct Item {
     /// The ways in which it may lie.
-    pub(super) ways: Vec<Columns>,
+    pub(super) ways: Vec<ShapeColumns>,
     /// Whether its left side must lie at the left side of the cloth, which is the fold.
     pub(super) at_fold: bool,
 }
 
 /// Where a piece lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Spot {
+pub(super) struct StripSpot {
     /// Number of the way in which it lies.
     pub(super) way: usize,
     /// Upper left corner of its box, metres.
@@ -25,7 +25,7 @@ pub(super) struct Spot {
 pub(super) struct Strip {
     column: f64,
     width: f64,
-    /// As [`Columns::taken`], over the whole width.
+    /// As [`ShapeColumns::taken`], over the whole width.
     taken: Vec<Vec<[f64; 2]>>,
     /// Length that is taken, metres.
     pub(super) length: f64,
@@ -39,7 +39,7 @@ impl Strip {
 
     /// Lays a piece where its lower end is highest on the drawing, and then as far to the left as it goes. `None` where
     /// it is wider than the cloth in every way.
-    pub(super) fn lay(&mut self, item: &Item) -> Option<Spot> {
+    pub(super) fn lay(&mut self, item: &Item) -> Option<StripSpot> {
         let mut best: Option<(f64, usize, usize, f64)> = None;
         for (way, shape) in item.ways.iter().enumerate() {
             let room = self.width - shape.size.x;
@@ -55,11 +55,11 @@ impl Strip {
         }
         let (_, way, at, y) = best?;
         self.take(&item.ways[way], at, y);
-        Some(Spot { way, corner: Vec2::new(at as f64 * self.column, y) })
+        Some(StripSpot { way, corner: Vec2::new(at as f64 * self.column, y) })
     }
 
     /// The least y at which a shape lies free at a column. `None` where that is `most` or more.
-    fn lowest(&self, shape: &Columns, at: usize, most: f64) -> Option<f64> {
+    fn lowest(&self, shape: &ShapeColumns, at: usize, most: f64) -> Option<f64> {
         let mut barred: Vec<[f64; 2]> = Vec::new();
         for (own, taken) in shape.taken.iter().zip(&self.taken[at..]) {
             for [low, high] in taken {
@@ -82,7 +82,7 @@ impl Strip {
         (y < most).then_some(y)
     }
 
-    fn take(&mut self, shape: &Columns, at: usize, y: f64) {
+    fn take(&mut self, shape: &ShapeColumns, at: usize, y: f64) {
         for (own, taken) in shape.taken.iter().zip(&mut self.taken[at..]) {
             taken.extend(own.iter().map(|[a, b]| [a + y, b + y]));
             *taken = merged(std::mem::take(taken));
@@ -97,7 +97,7 @@ mod tests {
 
     fn item(corners: &[[f64; 2]]) -> Item {
         let outline: Vec<Vec2> = corners.iter().map(|p| Vec2::from(*p)).collect();
-        Item { ways: vec![Columns::new(&outline, 0.01)], at_fold: false }
+        Item { ways: vec![ShapeColumns::new(&outline, 0.01)], at_fold: false }
     }
 
     #[test]
@@ -105,7 +105,7 @@ mod tests {
         let u = item(&[[0., 0.], [0.1, 0.], [0.1, 0.3], [0.2, 0.3], [0.2, 0.], [0.3, 0.], [0.3, 0.4], [0., 0.4]]);
         let small = item(&[[0., 0.], [0.07, 0.], [0.07, 0.25], [0., 0.25]]);
         let mut strip = Strip::new(0.3, 0.01);
-        assert_eq!(strip.lay(&u), Some(Spot::default()));
+        assert_eq!(strip.lay(&u), Some(StripSpot::default()));
         let spot = strip.lay(&small).expect("room");
         assert!(spot.corner.y == 0.0 && (0.1..0.13).contains(&spot.corner.x), "{spot:?}");
         // The next one goes below, and one that is too wide nowhere.

@@ -2,8 +2,8 @@
 
 use super::matches::to_grain;
 use super::notched::{Compared, compared, reversed};
-use super::run::{Mark, Run};
-use super::sewn::{EdgeEnd, Sewn};
+use super::run::{EdgeRun, RunNotch};
+use super::sewn::{EdgeEnd, SeamsFound};
 use super::{Outline, Tolerance};
 
 /// Longest chain, in runs.
@@ -21,7 +21,7 @@ const OPPOSITE: f64 = 0.012;
 
 /// How a chain ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ends {
+pub(super) enum ChainEnds {
     /// It goes all round.
     Closed,
     /// From fold to fold.
@@ -31,13 +31,13 @@ pub(super) enum Ends {
 
 /// Runs that go on into each other.
 #[derive(Clone, Debug)]
-pub(super) struct Chain {
+pub(super) struct RunChain {
     /// Their numbers, each walked as it is drawn or the other way.
     pub(super) runs: Vec<(usize, bool)>,
     pub(super) length: f64,
-    marks: Vec<Mark>,
+    marks: Vec<RunNotch>,
     joints: Vec<f64>,
-    ends: Ends,
+    ends: ChainEnds,
     /// Mean of how far its runs lie within their pieces beside their chords.
     hollow: f64,
 }
@@ -45,8 +45,8 @@ pub(super) struct Chain {
 /// Two chains that may be sewn together.
 #[derive(Clone, Debug)]
 pub(super) struct ChainMatch {
-    pub(super) a: Chain,
-    pub(super) b: Chain,
+    pub(super) a: RunChain,
+    pub(super) b: RunChain,
     /// Whether the first is a half, and the second is as long as both.
     pub(super) doubled: bool,
     /// Whether the second is longer, and eased in.
@@ -62,20 +62,20 @@ impl ChainMatch {
 }
 
 /// The runs, outlines and seams that chains are made of.
-pub(super) struct Book<'a> {
-    pub(super) runs: &'a [Run],
+pub(super) struct ChainBook<'a> {
+    pub(super) runs: &'a [EdgeRun],
     pub(super) outlines: &'a [Outline],
-    pub(super) sewn: &'a Sewn<'a>,
+    pub(super) sewn: &'a SeamsFound<'a>,
     pub(super) free: Vec<bool>,
 }
 
-impl Book<'_> {
-    fn chain(&self, runs: &[(usize, bool)]) -> Chain {
+impl ChainBook<'_> {
+    fn chain(&self, runs: &[(usize, bool)]) -> RunChain {
         let (mut marks, mut joints, mut done, mut hollow) = (Vec::new(), Vec::new(), 0.0, 0.0);
         for &(run, forward) in runs {
             let own = &self.runs[run];
             let walked = if forward { own.marks.clone() } else { reversed(&own.marks, own.length()) };
-            marks.extend(walked.iter().map(|mark| Mark { at: done + mark.at, ..*mark }));
+            marks.extend(walked.iter().map(|mark| RunNotch { at: done + mark.at, ..*mark }));
             hollow += own.hollow() / runs.len() as f64;
             done += own.length();
             joints.push(done);
@@ -83,20 +83,20 @@ impl Book<'_> {
         joints.pop();
         let ends = match (runs.first(), runs.last()) {
             (Some(&first), Some(&last)) => self.ends(first, last),
-            _ => Ends::Open,
+            _ => ChainEnds::Open,
         };
-        Chain { runs: runs.to_vec(), length: done, marks, joints, ends, hollow }
+        RunChain { runs: runs.to_vec(), length: done, marks, joints, ends, hollow }
     }
 
-    fn ends(&self, (first, forward): (usize, bool), (last, on): (usize, bool)) -> Ends {
+    fn ends(&self, (first, forward): (usize, bool), (last, on): (usize, bool)) -> ChainEnds {
         let (entry, exit) = (self.outer(first, !forward), self.outer(last, on));
         let at_fold = |run: usize, at_end: bool| self.sewn.lies_on_fold(self.sewn.beside(&self.runs[run], at_end));
         if self.sewn.partners(exit).contains(&entry) {
-            Ends::Closed
+            ChainEnds::Closed
         } else if at_fold(first, !forward) && at_fold(last, on) {
-            Ends::Folds
+            ChainEnds::Folds
         } else {
-            Ends::Open
+            ChainEnds::Open
         }
     }
 
@@ -108,7 +108,7 @@ impl Book<'_> {
     }
 
     /// All chains of runs that no seam has, each in every direction, and of those all round from every joint.
-    pub(super) fn chains(&self) -> Vec<Chain> {
+    pub(super) fn chains(&self) -> Vec<RunChain> {
         let mut walks: Vec<Vec<(usize, bool)>> = Vec::new();
         let mut open: Vec<Vec<(usize, bool)>> = (0..self.runs.len())
             .filter(|&run| self.free[run])
@@ -143,14 +143,14 @@ impl Book<'_> {
     }
 
     /// How well two chains fit; `None` if they do not.
-    pub(super) fn fit(&self, a: &Chain, b: &Chain, tolerance: Tolerance) -> Option<ChainMatch> {
+    pub(super) fn fit(&self, a: &RunChain, b: &RunChain, tolerance: Tolerance) -> Option<ChainMatch> {
         let pieces =
-            |chain: &Chain| -> Vec<usize> { chain.runs.iter().map(|(run, _)| self.runs[*run].piece).collect() };
+            |chain: &RunChain| -> Vec<usize> { chain.runs.iter().map(|(run, _)| self.runs[*run].piece).collect() };
         let (own, other) = (pieces(a), pieces(b));
         if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > HOLLOW) {
             return None;
         }
-        let doubled = a.ends == Ends::Folds && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
+        let doubled = a.ends == ChainEnds::Folds && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
         let long = if doubled { 2.0 * a.length } else { a.length };
         let mut found =
             ChainMatch { a: a.clone(), b: b.clone(), doubled, eased: false, score: 0.0, reasons: Vec::new() };
@@ -169,7 +169,7 @@ impl Book<'_> {
     }
 
     /// Whether the chain is one run of a piece that is not a half.
-    fn is_whole(&self, chain: &Chain) -> bool {
+    fn is_whole(&self, chain: &RunChain) -> bool {
         matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].fold.is_none())
             && chain.hollow.abs() < HOLLOW
     }
@@ -195,7 +195,7 @@ impl Book<'_> {
         }
         let scale = b.length / a.length;
         let near = |at: f64, places: &[f64]| places.iter().any(|place| (place - at).abs() <= OPPOSITE);
-        let places = |chain: &Chain| -> Vec<f64> {
+        let places = |chain: &RunChain| -> Vec<f64> {
             chain.joints.iter().copied().chain(chain.marks.iter().map(|mark| mark.at)).collect()
         };
         let opposite = a.joints.iter().filter(|&&at| near(at * scale, &places(b))).count();
@@ -216,20 +216,20 @@ impl Book<'_> {
 
     fn by_ends(&self, found: &mut ChainMatch) {
         match (found.a.ends, found.b.ends) {
-            (Ends::Closed, Ends::Closed) => found.add(1.5, "both go all round"),
-            (Ends::Closed, Ends::Open) if self.closing(&found.b).is_some() => {
+            (ChainEnds::Closed, ChainEnds::Closed) => found.add(1.5, "both go all round"),
+            (ChainEnds::Closed, ChainEnds::Open) if self.closing(&found.b).is_some() => {
                 found.add(1.25, "it closes the ring that the other is sewn into");
             }
-            (Ends::Folds, Ends::Folds) => found.add(1.0, "both go from fold to fold"),
-            (Ends::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
-            (Ends::Closed | Ends::Folds, _) | (_, Ends::Closed | Ends::Folds) => found.score -= 1.0,
+            (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from fold to fold"),
+            (ChainEnds::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (ChainEnds::Closed | ChainEnds::Folds, _) | (_, ChainEnds::Closed | ChainEnds::Folds) => found.score -= 1.0,
             _ => {}
         }
     }
 
     /// Courses along the grain of either side, and a side that is one edge but for a dart in it.
     fn by_grain(&self, found: &mut ChainMatch) {
-        let angles = |chain: &Chain| -> Option<Vec<f64>> {
+        let angles = |chain: &RunChain| -> Option<Vec<f64>> {
             chain.runs.iter().map(|(run, _)| to_grain(self.outlines, &self.runs[*run])).collect()
         };
         let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
@@ -246,7 +246,7 @@ impl Book<'_> {
 
     /// The sides of a single run's piece beside it, where they are as long as each other: sewn together they make it
     /// go all round.
-    pub(super) fn closing(&self, chain: &Chain) -> Option<[EdgeEnd; 2]> {
+    pub(super) fn closing(&self, chain: &RunChain) -> Option<[EdgeEnd; 2]> {
         let [(run, _)] = chain.runs[..] else { return None };
         let sides = [false, true].map(|at_end| self.sewn.beside(&self.runs[run], at_end));
         let [one, other] = sides.map(|end| self.outlines[end.piece].edges[end.edge].path.length());
@@ -263,7 +263,7 @@ impl ChainMatch {
 }
 
 /// Where a chain of one run that bulges lies farthest beside its chord.
-fn apex(book: &Book, chain: &Chain) -> Option<f64> {
+fn apex(book: &ChainBook, chain: &RunChain) -> Option<f64> {
     let [(run, forward)] = chain.runs[..] else { return None };
     let own = &book.runs[run];
     if own.hollow() > -HOLLOW {

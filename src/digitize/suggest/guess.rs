@@ -3,7 +3,7 @@
 
 use super::Outline;
 use super::chains::ChainMatch;
-use super::run::{Run, is_fold};
+use super::run::{EdgeRun, is_fold};
 use crate::geometry::{Vec2, box_or_origin};
 use crate::pattern::{PlaceMeaning, PlaceWord, Side};
 
@@ -21,7 +21,7 @@ pub(in crate::digitize) struct Guess {
 
 /// Which side of the wearer a piece is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Facing {
+enum GuessedSide {
     Front,
     Back,
 }
@@ -29,12 +29,12 @@ enum Facing {
 /// A guess for each piece, from the armholes that caps are sewn to and the crotches.
 pub(super) fn guesses(
     outlines: &[Outline],
-    runs: &[Run],
+    runs: &[EdgeRun],
     chained: &[ChainMatch],
-    mirrored: &[(Run, f64, String)],
+    mirrored: &[(EdgeRun, f64, String)],
 ) -> Vec<Guess> {
     let mut guesses = vec![Guess::default(); outlines.len()];
-    let mut facing: Vec<Option<Facing>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
+    let mut facing: Vec<Option<GuessedSide>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
     let caps: Vec<&ChainMatch> = chained.iter().filter(|chain| is_cap(outlines, runs, chain)).collect();
     for chain in &caps {
         // A double notch marks the back.
@@ -42,7 +42,7 @@ pub(super) fn guesses(
             let own = &runs[run];
             let doubles = own.marks.iter().filter(|mark| mark.double).count();
             if facing[own.piece].is_none() && !own.marks.is_empty() {
-                facing[own.piece] = Some(if doubles > 0 { Facing::Back } else { Facing::Front });
+                facing[own.piece] = Some(if doubles > 0 { GuessedSide::Back } else { GuessedSide::Front });
             }
         }
         for &(run, _) in &chain.a.runs {
@@ -51,9 +51,11 @@ pub(super) fn guesses(
         if let [(cap, forward)] = chain.b.runs[..] {
             let sleeve = &runs[cap];
             guesses[sleeve.piece].place = Some(PlaceWord::Arm.name().to_owned());
-            let back_first = chain.a.runs.first().map(|&(run, _)| facing[runs[run].piece]) == Some(Some(Facing::Back));
-            let both = chain.a.runs.iter().map(|&(run, _)| facing[runs[run].piece]).collect::<Option<Vec<Facing>>>();
-            if both.is_some_and(|both| both.contains(&Facing::Back) && both.contains(&Facing::Front)) {
+            let back_first =
+                chain.a.runs.first().map(|&(run, _)| facing[runs[run].piece]) == Some(Some(GuessedSide::Back));
+            let both =
+                chain.a.runs.iter().map(|&(run, _)| facing[runs[run].piece]).collect::<Option<Vec<GuessedSide>>>();
+            if both.is_some_and(|both| both.contains(&GuessedSide::Back) && both.contains(&GuessedSide::Front)) {
                 // Seen from outside the back of the right arm lies left of its front.
                 let (start, end) = (sleeve.path.start().x, sleeve.path.end().x);
                 let back_is_left = (back_first == forward) == (start < end);
@@ -72,38 +74,38 @@ pub(super) fn guesses(
             let [low, high] = box_or_origin(outlines[piece].edges.iter().flat_map(|e| e.path.sampled(1e-3)));
             // Seen from outside the wearer's left is right of the middle in front, and left of it behind.
             let lies_right = middle.x < (low.x + high.x) / 2.0;
-            guess.drawn = Some(if lies_right == (facing == Facing::Front) { Side::Left } else { Side::Right });
+            guess.drawn = Some(if lies_right == (facing == GuessedSide::Front) { Side::Left } else { Side::Right });
         }
     }
     guesses
 }
 
 /// The meaning of a piece's name.
-fn by_name(name: &str) -> Option<Facing> {
+fn by_name(name: &str) -> Option<GuessedSide> {
     let said: Vec<PlaceMeaning> = PlaceWord::in_name(name).into_iter().map(PlaceWord::meaning).collect();
     match (said.contains(&PlaceMeaning::Front), said.contains(&PlaceMeaning::Back)) {
-        (true, false) => Some(Facing::Front),
-        (false, true) => Some(Facing::Back),
+        (true, false) => Some(GuessedSide::Front),
+        (false, true) => Some(GuessedSide::Back),
         _ => None,
     }
 }
 
-fn place(guesses: &mut [Guess], piece: usize, part: &str, facing: &[Option<Facing>]) {
+fn place(guesses: &mut [Guess], piece: usize, part: &str, facing: &[Option<GuessedSide>]) {
     let side = facing[piece].map(|facing| match facing {
-        Facing::Front => PlaceWord::Front.name(),
-        Facing::Back => PlaceWord::Back.name(),
+        GuessedSide::Front => PlaceWord::Front.name(),
+        GuessedSide::Back => PlaceWord::Back.name(),
     });
     guesses[piece].place = Some(side.map_or_else(|| part.to_owned(), |side| format!("{part} {side}")));
 }
 
 /// Whether a chain is an armhole with the cap of a sleeve that is cut as a pair.
-fn is_cap(outlines: &[Outline], runs: &[Run], chain: &ChainMatch) -> bool {
+fn is_cap(outlines: &[Outline], runs: &[EdgeRun], chain: &ChainMatch) -> bool {
     matches!(chain.b.runs[..], [(run, _)] if runs[run].hollow() < CAP && outlines[runs[run].piece].pair)
         && chain.a.runs.iter().all(|(run, _)| runs[*run].hollow() > 0.0)
 }
 
 /// A point of a half's middle: of its fold, or of the seam between the halves.
-fn middle<'a>(outline: &Outline, centers: impl Iterator<Item = &'a Run>) -> Option<Vec2> {
+fn middle<'a>(outline: &Outline, centers: impl Iterator<Item = &'a EdgeRun>) -> Option<Vec2> {
     let folded = (0..outline.edges.len()).find(|&k| is_fold(outline, k)).map(|k| &outline.edges[k].path);
     let half = |path: &crate::geometry::Path| path.point(path.length() / 2.0);
     folded.map(half).or_else(|| centers.map(|run| half(&run.path)).next())

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::notched::{compared, reversed};
-use super::run::{LOOKS, Run};
+use super::run::{EdgeRun, LOOKS};
 use super::{Outline, Tolerance};
 
 /// A run that bends aside by less than this share of its chord is straight.
@@ -34,8 +34,8 @@ pub(super) const DART_SCORE: f64 = 6.0;
 /// Two runs, and what speaks for a seam.
 #[derive(Clone, Debug)]
 pub(super) struct Match {
-    pub(super) a: Run,
-    pub(super) b: Run,
+    pub(super) a: EdgeRun,
+    pub(super) b: EdgeRun,
     /// Whether the start of the one meets the end of the other.
     pub(super) opposed: bool,
     /// How much speaks for it; no unit.
@@ -55,7 +55,7 @@ impl Match {
 }
 
 /// Both ways to lay two runs along each other, the better first; none where no seam is there.
-pub(super) fn matches(outlines: &[Outline], a: &Run, b: &Run, tolerance: Tolerance) -> Vec<Match> {
+pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance: Tolerance) -> Vec<Match> {
     let off = (a.length() - b.length()).abs();
     let most = tolerance.of(a.length().max(b.length()));
     if off > most || a.hollow().min(b.hollow()) > HOLLOW || a.hollow().max(b.hollow()) < BULGING {
@@ -68,7 +68,7 @@ pub(super) fn matches(outlines: &[Outline], a: &Run, b: &Run, tolerance: Toleran
     found
 }
 
-fn one(outlines: &[Outline], a: &Run, b: &Run, opposed: bool, off: f64) -> Option<Match> {
+fn one(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, opposed: bool, off: f64) -> Option<Match> {
     let mut score = 2.0 - off;
     let mut reasons = Vec::new();
     let mut count = |points: f64, reason: &str| {
@@ -97,7 +97,7 @@ fn one(outlines: &[Outline], a: &Run, b: &Run, opposed: bool, off: f64) -> Optio
 }
 
 /// The evidence of notches. `None` where a single one would meet a double one.
-fn by_notches(a: &Run, b: &Run, opposed: bool) -> Option<(f64, &'static str)> {
+fn by_notches(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> Option<(f64, &'static str)> {
     let marks = if opposed { reversed(&b.marks, b.length()) } else { b.marks.clone() };
     let inside = compared((&a.marks, a.length()), (&marks, b.length()));
     let [start, end] = b.end_marks;
@@ -124,13 +124,13 @@ fn by_notches(a: &Run, b: &Run, opposed: bool) -> Option<(f64, &'static str)> {
 }
 
 /// How far the courses differ, as a share of how far they bend: as mirror images or the same, and as one in the other.
-fn differences(a: &Run, b: &Run, opposed: bool) -> [f64; 2] {
+fn differences(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> [f64; 2] {
     let most = a.bow().max(b.bow()).max(f64::MIN_POSITIVE);
     let across = |k: usize| b.profile[if opposed { LOOKS - 1 - k } else { k }];
     [1.0, -1.0].map(|sign| (0..LOOKS).map(|k| (a.profile[k] - sign * across(k)).abs()).fold(0.0, f64::max) / most)
 }
 
-fn by_course(a: &Run, b: &Run, opposed: bool) -> (f64, &'static str) {
+fn by_course(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> (f64, &'static str) {
     if a.bow().max(b.bow()) < STRAIGHT {
         return (0.25, "");
     }
@@ -144,12 +144,12 @@ fn by_course(a: &Run, b: &Run, opposed: bool) -> (f64, &'static str) {
 }
 
 /// Angle of a run to the grain, from 0 to a right one.
-pub(super) fn to_grain(outlines: &[Outline], run: &Run) -> Option<f64> {
+pub(super) fn to_grain(outlines: &[Outline], run: &EdgeRun) -> Option<f64> {
     let (warp, along) = (outlines[run.piece].warp?, run.along()?);
     Some(along.perp(&warp).abs().atan2(along.dot(&warp).abs()))
 }
 
-fn by_grain(outlines: &[Outline], a: &Run, b: &Run) -> (f64, &'static str) {
+fn by_grain(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> (f64, &'static str) {
     let (Some(one), Some(other)) = (to_grain(outlines, a), to_grain(outlines, b)) else { return (0.0, "") };
     let apart = (one - other).abs();
     if apart > TO_GRAIN[1] {
@@ -165,8 +165,8 @@ fn by_grain(outlines: &[Outline], a: &Run, b: &Run) -> (f64, &'static str) {
 
 /// Whether two sides of one piece may be sewn to each other, as those of a sleeve: mirror images that are long for how
 /// far they are apart.
-fn may_close(a: &Run, b: &Run, opposed: bool) -> bool {
-    let middle = |run: &Run| run.path.point(run.length() / 2.0);
+fn may_close(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> bool {
+    let middle = |run: &EdgeRun| run.path.point(run.length() / 2.0);
     let apart = (middle(a) - middle(b)).norm();
     opposed
         && SLEEVE.contains(&(a.length() / apart))
@@ -174,7 +174,7 @@ fn may_close(a: &Run, b: &Run, opposed: bool) -> bool {
 }
 
 /// The legs of a dart that is drawn as a wedge in the outline: runs that follow each other round its tip.
-pub(super) fn dart(a: &Run, b: &Run, angle: f64) -> Option<Match> {
+pub(super) fn dart(a: &EdgeRun, b: &EdgeRun, angle: f64) -> Option<Match> {
     let legs = DART.contains(&angle) && (a.length() - b.length()).abs() <= LEGS_APART;
     let reasons = vec!["legs of a dart".to_owned()];
     legs.then(|| Match { a: a.clone(), b: b.clone(), opposed: true, score: DART_SCORE, reasons })

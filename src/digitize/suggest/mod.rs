@@ -13,16 +13,16 @@ mod run;
 mod sewn;
 mod written;
 
-use super::edges::Edge;
+use super::edges::FileEdge;
 use crate::geometry::Vec2;
 use crate::pattern::{DEFAULT_TOLERANCE, PlaceMeaning, PlaceWord};
-use chains::{Book, Chain, ChainMatch};
+use chains::{ChainBook, ChainMatch, RunChain};
 pub(in crate::digitize) use guess::Guess;
 use guess::guesses;
 use matches::{Match, dart, matches, to_grain};
 pub use of_file::suggestions;
-use run::{Run, runs, says, spans, turn_before};
-use sewn::{EdgeEnd, Sewn};
+use run::{EdgeRun, runs, says, spans, turn_before};
+use sewn::{EdgeEnd, SeamsFound};
 use written::written;
 pub use written::{Suggestion, sewn};
 
@@ -68,7 +68,7 @@ const BACK: &str = "back";
 /// A piece's edges.
 pub(super) struct Outline {
     pub(super) piece: String,
-    pub(super) edges: Vec<Edge>,
+    pub(super) edges: Vec<FileEdge>,
     /// The allowance of each edge, metres, where one was drawn.
     pub(super) allowances: Vec<Option<f64>>,
     /// The edge that lies on the fold of the cloth: no seam is there.
@@ -101,7 +101,7 @@ impl Tolerance {
 /// Of the seams of a drawing that is exact the lengths differ by no more than this (metres), which leaves what programs
 /// round.
 const EXACT: f64 = 3e-4;
-/// What lengths may differ by, by how far those of seams differ that are sure.
+/// Largest difference of two lengths that may be sewn, from how far those of the seams differ that are sure.
 const SLACK: f64 = 3.0;
 
 /// The seams that pieces may have, those that most speaks for first, and a guess for each piece.
@@ -127,21 +127,22 @@ pub(super) fn suggest(outlines: &[Outline]) -> (Vec<Suggestion>, Vec<Guess>) {
 }
 
 /// All that may be sewn.
-struct Found {
+struct Sewable {
     /// Runs that are no center of a pair.
-    sides: Vec<Run>,
+    sides: Vec<EdgeRun>,
     seams: Vec<Match>,
     chained: Vec<ChainMatch>,
-    mirrored: Vec<(Run, f64, String)>,
+    mirrored: Vec<(EdgeRun, f64, String)>,
 }
 
 /// The seams that are possible within a tolerance of lengths.
-fn found(outlines: &[Outline], runs: &[Run], tolerance: Tolerance) -> Found {
-    let (middle, sides): (Vec<Run>, Vec<Run>) = runs.iter().cloned().partition(|run| is_center(outlines, runs, run));
-    let mut sewn = Sewn::new(outlines);
+fn found(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Sewable {
+    let (middle, sides): (Vec<EdgeRun>, Vec<EdgeRun>) =
+        runs.iter().cloned().partition(|run| is_center(outlines, runs, run));
+    let mut sewn = SeamsFound::new(outlines);
     let mut chained: Vec<ChainMatch> = Vec::new();
     let candidates = candidates(outlines, &sides, tolerance);
-    let is_whole = |own: &Run| sides.iter().any(|run| run.piece == own.piece && run.edges == own.edges);
+    let is_whole = |own: &EdgeRun| sides.iter().any(|run| run.piece == own.piece && run.edges == own.edges);
     let (whole, parts): (Vec<Match>, Vec<Match>) =
         candidates.into_iter().partition(|found| is_whole(&found.a) && is_whole(&found.b));
     // Parts of edges between notches come last: they are parts of chains, too.
@@ -156,18 +157,18 @@ fn found(outlines: &[Outline], runs: &[Run], tolerance: Tolerance) -> Found {
         }
     }
     let left = sides.iter().enumerate().filter(|(k, run)| !sewn.has(run) && !is_chained(&chained, *k));
-    let mut mirrored: Vec<(Run, f64, String)> = middle.iter().map(|run| center(outlines, run)).collect();
+    let mut mirrored: Vec<(EdgeRun, f64, String)> = middle.iter().map(|run| center(outlines, run)).collect();
     mirrored.extend(left.filter_map(|(_, run)| crotch(outlines, &sewn, run)));
     let seams = sewn.seams;
-    Found { sides, seams, chained, mirrored }
+    Sewable { sides, seams, chained, mirrored }
 }
 
 /// Whether a run is the center of a pair, called so or the only straight one that lies exactly along the grain: nothing
 /// but its mirror image is sewn to it.
-fn is_center(outlines: &[Outline], runs: &[Run], run: &Run) -> bool {
+fn is_center(outlines: &[Outline], runs: &[EdgeRun], run: &EdgeRun) -> bool {
     let outline = &outlines[run.piece];
     let called = || run.edges.iter().all(|&k| says(&outline.edges[k].name, &CENTER));
-    let is_down = |run: &Run| {
+    let is_down = |run: &EdgeRun| {
         let down = to_grain(outlines, run).is_some_and(|angle| angle <= STRAIGHT_DOWN);
         down && run.path.is_straight() && run.length() >= LONG
     };
@@ -184,9 +185,9 @@ fn is_chained(chained: &[ChainMatch], run: usize) -> bool {
 }
 
 /// Every two runs, or parts of runs between notches, that fit each other, the best way to lay them along each other.
-fn candidates(outlines: &[Outline], runs: &[Run], tolerance: Tolerance) -> Vec<Match> {
-    let sewn = Sewn::new(outlines);
-    let mut spans: Vec<Run> = runs.iter().flat_map(|run| spans(&outlines[run.piece], run)).collect();
+fn candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Vec<Match> {
+    let sewn = SeamsFound::new(outlines);
+    let mut spans: Vec<EdgeRun> = runs.iter().flat_map(|run| spans(&outlines[run.piece], run)).collect();
     spans.sort_by(|a, b| a.length().total_cmp(&b.length()));
     let mut found = Vec::new();
     for (i, a) in spans.iter().enumerate() {
@@ -203,7 +204,14 @@ fn candidates(outlines: &[Outline], runs: &[Run], tolerance: Tolerance) -> Vec<M
 }
 
 /// The better of the two ways to sew two runs.
-fn best(outlines: &[Outline], runs: &[Run], sewn: &Sewn, a: &Run, b: &Run, tolerance: Tolerance) -> Option<Match> {
+fn best(
+    outlines: &[Outline],
+    runs: &[EdgeRun],
+    sewn: &SeamsFound,
+    a: &EdgeRun,
+    b: &EdgeRun,
+    tolerance: Tolerance,
+) -> Option<Match> {
     if let Some(dart) = tip(outlines, a, b).and_then(|angle| dart(a, b, angle)) {
         return Some(dart);
     }
@@ -213,7 +221,7 @@ fn best(outlines: &[Outline], runs: &[Run], sewn: &Sewn, a: &Run, b: &Run, toler
         .filter(|span| !whole.clone().any(|run| run.edges == span.edges && run.piece == span.piece))
         .count();
     // Whatever else has two sides alike is sewn to others along them.
-    let is_cap = |run: &Run| run.hollow() < CAP && lies_between(outlines, run, a, b);
+    let is_cap = |run: &EdgeRun| run.hollow() < CAP && lies_between(outlines, run, a, b);
     let round_cap = a.piece == b.piece && parts == 0 && runs.iter().any(is_cap);
     if a.piece == b.piece && !round_cap {
         return None;
@@ -233,9 +241,9 @@ fn best(outlines: &[Outline], runs: &[Run], sewn: &Sewn, a: &Run, b: &Run, toler
 }
 
 /// The angle inside the piece at the corner that two runs follow each other round.
-fn tip(outlines: &[Outline], a: &Run, b: &Run) -> Option<f64> {
+fn tip(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> Option<f64> {
     let outline = &outlines[a.piece];
-    let follows = |one: &Run, next: &Run| {
+    let follows = |one: &EdgeRun, next: &EdgeRun| {
         (one.piece == next.piece && (one.edges[one.edges.len() - 1] + 1) % outline.edges.len() == next.edges[0])
             .then(|| std::f64::consts::PI - turn_before(outline, next.edges[0]))
     };
@@ -243,16 +251,16 @@ fn tip(outlines: &[Outline], a: &Run, b: &Run) -> Option<f64> {
 }
 
 /// Whether a run is all that lies between two others on one side.
-fn lies_between(outlines: &[Outline], run: &Run, a: &Run, b: &Run) -> bool {
+fn lies_between(outlines: &[Outline], run: &EdgeRun, a: &EdgeRun, b: &EdgeRun) -> bool {
     let count = outlines[a.piece].edges.len();
-    let next = |run: &Run| (run.edges[run.edges.len() - 1] + 1) % count;
-    let goes = |from: &Run, to: &Run| next(from) == run.edges[0] && next(run) == to.edges[0];
+    let next = |run: &EdgeRun| (run.edges[run.edges.len() - 1] + 1) % count;
+    let goes = |from: &EdgeRun, to: &EdgeRun| next(from) == run.edges[0] && next(run) == to.edges[0];
     run.piece == a.piece && (goes(a, b) || goes(b, a))
 }
 
 /// Takes the matches of which no rival is in reach, the best first.
-fn take_matches(candidates: &[Match], sewn: &mut Sewn, chained: &[ChainMatch], runs: &[Run]) {
-    let in_chain = |run: &Run| runs.iter().enumerate().any(|(k, own)| is_chained(chained, k) && own.meets(run));
+fn take_matches(candidates: &[Match], sewn: &mut SeamsFound, chained: &[ChainMatch], runs: &[EdgeRun]) {
+    let in_chain = |run: &EdgeRun| runs.iter().enumerate().any(|(k, own)| is_chained(chained, k) && own.meets(run));
     let mut open: Vec<&Match> =
         candidates.iter().filter(|c| c.score >= LEAST && ![&c.a, &c.b].iter().any(|run| in_chain(run))).collect();
     loop {
@@ -270,7 +278,7 @@ fn take_matches(candidates: &[Match], sewn: &mut Sewn, chained: &[ChainMatch], r
 
 /// How much speaks for the seams that a seam excludes because they would make a bag with it: the points of the best two
 /// that go together. Seams along the halves of a sleeve are excluded so by one over their caps.
-fn worth_of_excluded(own: &Match, open: &[&Match], sewn: &Sewn) -> f64 {
+fn worth_of_excluded(own: &Match, open: &[&Match], sewn: &SeamsFound) -> f64 {
     let mut with = sewn.clone();
     with.seams.push(own.clone());
     let pieces = |m: &Match| [m.a.piece.min(m.b.piece), m.a.piece.max(m.b.piece)];
@@ -284,22 +292,22 @@ fn worth_of_excluded(own: &Match, open: &[&Match], sewn: &Sewn) -> f64 {
 /// Takes the chains of which no rival is in reach, the best first, and the sides of the rings that they are sewn into.
 fn take_chains(
     outlines: &[Outline],
-    runs: &[Run],
+    runs: &[EdgeRun],
     tolerance: Tolerance,
-    sewn: &mut Sewn,
+    sewn: &mut SeamsFound,
     chained: &mut Vec<ChainMatch>,
 ) {
     let free: Vec<bool> = runs.iter().enumerate().map(|(k, run)| !sewn.has(run) && !is_chained(chained, k)).collect();
-    let book = Book { runs, outlines, sewn, free };
+    let book = ChainBook { runs, outlines, sewn, free };
     let chains = book.chains();
-    let target = |chain: &Chain| match chain.runs[..] {
+    let target = |chain: &RunChain| match chain.runs[..] {
         [(_, forward)] => forward,
         [first, .., last] => first < last,
         [] => false,
     };
     let mut found: Vec<ChainMatch> = Vec::new();
     for b in chains.iter().filter(|chain| target(chain)) {
-        let fits = |a: &&Chain| a.runs.len() >= b.runs.len();
+        let fits = |a: &&RunChain| a.runs.len() >= b.runs.len();
         found.extend(chains.iter().filter(fits).filter_map(|a| {
             let fit = book.fit(a, b, tolerance)?;
             (fit.score >= LEAST_CHAIN && (fit.doubled || fit.eased || a.runs.len() > 1)).then_some(fit)
@@ -342,7 +350,7 @@ fn sorted(found: &ChainMatch) -> Vec<usize> {
 }
 
 /// A seam between the halves of a pair down its center, and what speaks for it.
-fn center(outlines: &[Outline], run: &Run) -> (Run, f64, String) {
+fn center(outlines: &[Outline], run: &EdgeRun) -> (EdgeRun, f64, String) {
     let outline = &outlines[run.piece];
     let called = run.edges.iter().all(|&k| says(&outline.edges[k].name, &CENTER)) || says(&outline.piece, &[BACK]);
     let (points, reason) =
@@ -352,8 +360,8 @@ fn center(outlines: &[Outline], run: &Run) -> (Run, f64, String) {
 
 /// A seam between the halves of a pair along a crotch, and what speaks for it: its piece is sewn to another on both
 /// sides of a leg.
-fn crotch(outlines: &[Outline], sewn: &Sewn, run: &Run) -> Option<(Run, f64, String)> {
-    let down = |run: &Run| to_grain(outlines, run).is_some_and(|angle| angle <= DOWN);
+fn crotch(outlines: &[Outline], sewn: &SeamsFound, run: &EdgeRun) -> Option<(EdgeRun, f64, String)> {
+    let down = |run: &EdgeRun| to_grain(outlines, run).is_some_and(|angle| angle <= DOWN);
     let bends = run.length() >= LONG && down(run) && run.hollow() >= CROTCH;
     let across = |seam: &Match| match [seam.a.piece, seam.b.piece] {
         [a, b] if a == b || !down(&seam.a) || !down(&seam.b) => None,

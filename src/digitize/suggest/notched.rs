@@ -1,6 +1,6 @@
 //! Whether the notches of two sides of a seam lie opposite each other.
 
-use super::run::Mark;
+use super::run::RunNotch;
 
 /// Notches opposite each other lie so near (metres), and as a share of the side's length: programs set them by measure
 /// from the end, and ease lies between.
@@ -18,13 +18,13 @@ pub(super) struct Compared {
 }
 
 /// Compares the notches of two sides laid along each other, each with its length.
-pub(super) fn compared((a, la): (&[Mark], f64), (b, lb): (&[Mark], f64)) -> Compared {
+pub(super) fn compared((a, la): (&[RunNotch], f64), (b, lb): (&[RunNotch], f64)) -> Compared {
     let near = OPPOSITE.0.max(OPPOSITE.1 * la.max(lb)) + (la - lb).abs();
     let mut out = Compared::default();
-    let mut left: Vec<&Mark> = b.iter().collect();
+    let mut left: Vec<&RunNotch> = b.iter().collect();
     for mark in a {
         // From whichever end they were measured.
-        let off = |other: &Mark| (mark.at - other.at).abs().min(((la - mark.at) - (lb - other.at)).abs());
+        let off = |other: &RunNotch| (mark.at - other.at).abs().min(((la - mark.at) - (lb - other.at)).abs());
         let nearest = (0..left.len()).min_by(|&i, &k| off(left[i]).total_cmp(&off(left[k])));
         match nearest.filter(|&k| off(left[k]) <= near) {
             Some(k) => {
@@ -40,8 +40,8 @@ pub(super) fn compared((a, la): (&[Mark], f64), (b, lb): (&[Mark], f64)) -> Comp
 }
 
 /// The notches walked from the other end.
-pub(super) fn reversed(marks: &[Mark], length: f64) -> Vec<Mark> {
-    marks.iter().rev().map(|mark| Mark { at: length - mark.at, ..*mark }).collect()
+pub(super) fn reversed(marks: &[RunNotch], length: f64) -> Vec<RunNotch> {
+    marks.iter().rev().map(|mark| RunNotch { at: length - mark.at, ..*mark }).collect()
 }
 
 #[cfg(test)]
@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn notches_match_by_place_and_never_single_to_double() {
-        let mark = |at: f64, double: bool| Mark { at, double };
+        let mark = |at: f64, double: bool| RunNotch { at, double };
         let (front, back) = ([mark(0.1, false)], [mark(0.101, true)]);
         assert!(compared((&front, 0.3), (&back, 0.3)).conflict);
         let same = compared((&front, 0.3), (&[mark(0.103, false), mark(0.25, true)], 0.31));

@@ -1,10 +1,10 @@
 //! Seams that the pieces of a garment file may still have.
 
 use super::{Outline, Suggestion, suggest};
-use crate::digitize::edges::Edge;
+use crate::digitize::edges::FileEdge;
 use crate::digitize::notches::EdgeNotch;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{AllowanceFile, Cut, GarmentFile, PieceFile, Unit, whole_pieces};
+use crate::pattern::{AllowanceFile, CutKind, GarmentFile, PieceFile, Unit, whole_pieces};
 
 /// The seams that may be meant between edges of a garment file that no seam has yet, those that most speaks for first.
 /// Pieces whose outline cannot be read have none.
@@ -50,13 +50,13 @@ fn outline(piece: &PieceFile, unit: Unit) -> Option<Outline> {
             may_be_mouth: false,
         };
         let notches = own.map(|told| notch(&told.value)).collect();
-        edges.push(Edge { name: name.value.clone(), path, notches });
+        edges.push(FileEdge { name: name.value.clone(), path, notches });
     }
     let fold = match piece.cut.as_ref().map(|cut| &cut.value) {
-        Some(Cut::Fold(edge)) => Some(edge.clone()),
+        Some(CutKind::Fold(edge)) => Some(edge.clone()),
         _ => None,
     };
-    let pair = piece.cut.as_ref().is_some_and(|cut| cut.value == Cut::Pair);
+    let pair = piece.cut.as_ref().is_some_and(|cut| cut.value == CutKind::Pair);
     let arrow = piece.grain.as_ref().map(|grain| grain.value.map(Vec2::from));
     Some(Outline {
         piece: piece.name.value.clone(),

@@ -20,7 +20,7 @@ const HEM: &str = "hem";
 
 /// A notch along a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct RunNotch {
     /// Metres from the start.
     pub(super) at: f64,
     pub(super) double: bool,
@@ -28,26 +28,26 @@ pub(super) struct Mark {
 
 /// Edges of a piece that follow each other without a corner, or some of them.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct EdgeRun {
     pub(super) piece: usize,
     /// Their numbers, clockwise.
     pub(super) edges: Vec<usize>,
     pub(super) path: Path,
     /// Notches inside, from the start.
-    pub(super) marks: Vec<Mark>,
+    pub(super) marks: Vec<RunNotch>,
     /// Notches at its start and its end where these are no corners, by whether they are double.
     pub(super) end_marks: [Option<bool>; 2],
     /// How far it lies beside its chord, as a share of that, positive into the piece.
     pub(super) profile: [f64; LOOKS],
 }
 
-impl Run {
+impl EdgeRun {
     fn new(outline: &Outline, piece: usize, edges: &[usize]) -> Option<Self> {
         let own = |k: usize| &outline.edges[k];
         let path = edges.iter().map(|&k| own(k).path.clone()).reduce(|line, next| line.joined(&next))?;
         let (mut marks, mut done) = (Vec::new(), 0.0);
         for &k in edges {
-            marks.extend(own(k).notches.iter().map(|n| Mark { at: done + n.at, double: n.double }));
+            marks.extend(own(k).notches.iter().map(|n| RunNotch { at: done + n.at, double: n.double }));
             done += own(k).path.length();
         }
         marks.retain(|mark| mark.at > AT_END && mark.at < path.length() - AT_END);
@@ -98,11 +98,11 @@ fn profile(path: &Path) -> [f64; LOOKS] {
 }
 
 /// The runs from corner to corner of all pieces that may be sewn: all but folds, hems and slips of the pen.
-pub(super) fn runs(outlines: &[Outline]) -> Vec<Run> {
+pub(super) fn runs(outlines: &[Outline]) -> Vec<EdgeRun> {
     let of = |(piece, outline): (usize, &Outline)| {
         let sewn = |edges: &Vec<usize>| !is_fold(outline, edges[0]) && !is_hem(outline, edges[0]);
         let parts = parts(outline).into_iter().filter(sewn);
-        let runs: Vec<Run> = parts.filter_map(|edges| Run::new(outline, piece, &edges)).collect();
+        let runs: Vec<EdgeRun> = parts.filter_map(|edges| EdgeRun::new(outline, piece, &edges)).collect();
         runs.into_iter().filter(|run| run.length() >= SHORTEST)
     };
     outlines.iter().enumerate().flat_map(of).collect()
@@ -161,13 +161,13 @@ pub(super) fn says(name: &str, words: &[&str]) -> bool {
 const MOST_PARTS: usize = 8;
 
 /// The run and its parts between notches: what a seam may take of it.
-pub(super) fn spans(outline: &Outline, run: &Run) -> Vec<Run> {
+pub(super) fn spans(outline: &Outline, run: &EdgeRun) -> Vec<EdgeRun> {
     let count = run.edges.len();
     let mut spans = vec![run.clone()];
     for from in 0..count {
         let most = if count > MOST_PARTS { from + 1 } else { count };
         for to in from + 1..=most {
-            let part = Run::new(outline, run.piece, &run.edges[from..to]);
+            let part = EdgeRun::new(outline, run.piece, &run.edges[from..to]);
             spans.extend(part.filter(|part| to - from < count && part.length() >= SHORTEST));
         }
     }

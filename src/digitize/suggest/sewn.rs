@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Outline;
 use super::matches::Match;
-use super::run::{Run, is_fold, turn_before};
+use super::run::{EdgeRun, is_fold, turn_before};
 use crate::digitize::edges::CORNER;
 
 /// Where two seams meet in a point of two pieces, the angles of these make about a full turn (radians, 290 to 430
@@ -23,23 +23,23 @@ pub(super) struct EdgeEnd {
 
 /// The seams found so far.
 #[derive(Clone)]
-pub(super) struct Sewn<'o> {
+pub(super) struct SeamsFound<'o> {
     outlines: &'o [Outline],
     pub(super) seams: Vec<Match>,
 }
 
-impl<'o> Sewn<'o> {
+impl<'o> SeamsFound<'o> {
     pub(super) fn new(outlines: &'o [Outline]) -> Self {
         Self { outlines, seams: Vec::new() }
     }
 
     /// Whether a seam has an edge of a run.
-    pub(super) fn has(&self, run: &Run) -> bool {
+    pub(super) fn has(&self, run: &EdgeRun) -> bool {
         self.seams.iter().any(|seam| seam.a.meets(run) || seam.b.meets(run))
     }
 
     /// The end of the edge beside a run that its start, or its end, is shared with.
-    pub(super) fn beside(&self, run: &Run, at_end: bool) -> EdgeEnd {
+    pub(super) fn beside(&self, run: &EdgeRun, at_end: bool) -> EdgeEnd {
         let count = self.outlines[run.piece].edges.len();
         let edge =
             if at_end { (run.edges[run.edges.len() - 1] + 1) % count } else { (run.edges[0] + count - 1) % count };
@@ -75,7 +75,7 @@ impl<'o> Sewn<'o> {
 
     /// Whether a further seam would close a corner of two pieces as of a bag: hems, above all, follow side seams.
     pub(super) fn makes_bag(&self, seam: &Match) -> bool {
-        let with = |run: &Run, end: EdgeEnd| run.piece == end.piece && run.edges.contains(&end.edge);
+        let with = |run: &EdgeRun, end: EdgeEnd| run.piece == end.piece && run.edges.contains(&end.edge);
         let sews = |a: EdgeEnd, b: EdgeEnd| {
             self.seams.iter().any(|s| (with(&s.a, a) && with(&s.b, b)) || (with(&s.a, b) && with(&s.b, a)))
         };
@@ -118,7 +118,7 @@ impl<'o> Sewn<'o> {
     }
 
     /// By how much of its length a run rises along the grain, pieces being drawn upright.
-    fn rise(&self, run: &Run) -> f64 {
+    fn rise(&self, run: &EdgeRun) -> f64 {
         let Some((warp, along)) = self.outlines[run.piece].warp.zip(run.along()) else { return 0.0 };
         let up = if warp.y.abs() >= warp.x.abs() { -warp * warp.y.signum() } else { warp * warp.x.signum() };
         along.dot(&up)

@@ -1,11 +1,11 @@
 //! Suggested seams as a garment file has them.
 
 use super::Outline;
-use super::chains::{Chain, ChainMatch};
+use super::chains::{ChainMatch, RunChain};
 use super::matches::Match;
-use super::run::Run;
+use super::run::EdgeRun;
 use crate::geometry::MM;
-use crate::pattern::{Cut, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Spot};
+use crate::pattern::{CutKind, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Spot};
 
 /// Edges that may be sewn together.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,19 +80,19 @@ fn whole(edge: &str) -> String {
 }
 
 fn lies_on_fold(piece: &PieceFile, edge: &str) -> bool {
-    let on = piece.cut.as_ref().and_then(|cut| if let Cut::Fold(on) = &cut.value { Some(on) } else { None });
+    let on = piece.cut.as_ref().and_then(|cut| if let CutKind::Fold(on) = &cut.value { Some(on) } else { None });
     on.is_some_and(|on| format!("{}.{on}", piece.name.value) == edge)
 }
 
 /// All that was found, those that most speaks for first.
 pub(super) fn written(
     outlines: &[Outline],
-    runs: &[Run],
+    runs: &[EdgeRun],
     matches: &[Match],
     chained: &[ChainMatch],
-    mirrored: &[(Run, f64, String)],
+    mirrored: &[(EdgeRun, f64, String)],
 ) -> Vec<Suggestion> {
-    let pieces = |runs: &[&Run]| -> Vec<usize> { runs.iter().map(|run| run.piece).collect() };
+    let pieces = |runs: &[&EdgeRun]| -> Vec<usize> { runs.iter().map(|run| run.piece).collect() };
     let mut found: Vec<(Vec<usize>, Suggestion)> = Vec::new();
     for own in matches {
         let sides = [(&own.a, false), (&own.b, own.opposed)];
@@ -101,7 +101,7 @@ pub(super) fn written(
         found.push((pieces(&[&own.a, &own.b]), suggestion(sew, to, lengths, own.score, &own.reasons)));
     }
     for own in chained {
-        let of = |chain: &Chain| chain.runs.iter().map(|(run, _)| runs[*run].piece).collect::<Vec<usize>>();
+        let of = |chain: &RunChain| chain.runs.iter().map(|(run, _)| runs[*run].piece).collect::<Vec<usize>>();
         let to = walked(outlines, runs, &own.b, true, None);
         let sew = if own.doubled {
             let [left, right] = ["L", "R"].map(|side| walked(outlines, runs, &own.a, side == "R", Some(side)));
@@ -128,7 +128,7 @@ fn suggestion(sew: Vec<String>, to: Vec<String>, lengths: [f64; 2], score: f64, 
 }
 
 /// `front.a`, `front.b`: the edges of a run as they are walked, of one side if that is said.
-fn edges(outlines: &[Outline], run: &Run, backward: bool, side: Option<&str>) -> Vec<String> {
+fn edges(outlines: &[Outline], run: &EdgeRun, backward: bool, side: Option<&str>) -> Vec<String> {
     let outline = &outlines[run.piece];
     let piece = side.map_or_else(|| outline.piece.clone(), |side| format!("{}.{side}", outline.piece));
     let mut names: Vec<String> = run.edges.iter().map(|&k| format!("{piece}.{}", outline.edges[k].name)).collect();
@@ -138,7 +138,7 @@ fn edges(outlines: &[Outline], run: &Run, backward: bool, side: Option<&str>) ->
     names
 }
 
-fn walked(outlines: &[Outline], runs: &[Run], chain: &Chain, onward: bool, side: Option<&str>) -> Vec<String> {
+fn walked(outlines: &[Outline], runs: &[EdgeRun], chain: &RunChain, onward: bool, side: Option<&str>) -> Vec<String> {
     let of = |&(run, forward): &(usize, bool)| edges(outlines, &runs[run], forward != onward, side);
     if onward { chain.runs.iter().flat_map(of).collect() } else { chain.runs.iter().rev().flat_map(of).collect() }
 }

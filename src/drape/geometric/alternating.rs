@@ -12,8 +12,8 @@
 
 use std::sync::Arc;
 
-use super::descent::{Clock, Report, Run, SolveOptions, factored, hold, largest_motion, timed};
-use super::problem::Problem;
+use super::descent::{Clock, SolveOptions, SolverReport, SolverRun, factored, hold, largest_motion, timed};
+use super::problem::RecoveryProblem;
 use super::recovery::Recovery;
 use super::{GeometricCloth, GeometricError};
 use crate::geometry::Vec3;
@@ -22,7 +22,7 @@ use crate::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 /// The alternation, prepared for one cloth, its recovery term and one set of held vertices.
 #[derive(Debug)]
 pub struct Alternating<'a> {
-    problem: Problem<'a>,
+    problem: RecoveryProblem<'a>,
     factor: Cholesky<f64>,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Alternating<'a> {
     /// [`GeometricError`] for a vertex that does not exist, a target that is not finite, or a cloth too large for its
     /// system.
     pub fn new(cloth: &'a GeometricCloth, held: &[u32], recovery: Recovery) -> Result<Self, GeometricError> {
-        let problem = Problem::new(cloth, held, recovery)?;
+        let problem = RecoveryProblem::new(cloth, held, recovery)?;
         let matrix = assemble(&problem)?;
         let mut factor = Cholesky::new(matrix.pattern().clone())?;
         factored(&mut factor, &matrix, 1)?;
@@ -44,8 +44,8 @@ impl<'a> Alternating<'a> {
     ///
     /// # Errors
     /// [`GeometricError`] for numbers of vertices that do not agree or positions that are not finite.
-    pub fn solve(&self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<Report, GeometricError> {
-        let mut run = Run::new(&self.problem, options, x)?;
+    pub fn solve(&self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<SolverReport, GeometricError> {
+        let mut run = SolverRun::new(&self.problem, options, x)?;
         let mut clock = Clock::default();
         let mut before = x.clone();
         let mut momentum = Momentum::default();
@@ -102,7 +102,7 @@ impl Momentum {
 }
 
 /// K, with the rows of held vertices as those of the identity.
-fn assemble(problem: &Problem) -> Result<SymmetricMatrix<f64>, GeometricError> {
+fn assemble(problem: &RecoveryProblem) -> Result<SymmetricMatrix<f64>, GeometricError> {
     let (GeometricCloth { stencils, weights }, handles) = (problem.cloth, &problem.handles);
     let n = stencils.points.len();
     let mut entries = problem.recovery.entries(stencils, weights.recovery);

@@ -3,8 +3,16 @@
 //! A_M = 0 for a flat hinge. For a folded one it has its length in the initial mesh and the direction of the hinge's
 //! present normal: A stands on the hinge along the mean of its two triangles' normals, wherever the cloth is.
 
-use super::energy::direction;
 use crate::geometry::Vec3;
+
+/// Length below which an edge has no direction, metres: far below any real edge and far above rounding.
+const SHORTEST: f64 = 1e-12;
+
+/// Unit direction and length of an edge vector. No direction where it has no length.
+pub(super) fn direction(edge: Vec3) -> (Vec3, f64) {
+    let length = edge.norm();
+    if length > SHORTEST { (edge / length, length) } else { (Vec3::zeros(), length) }
+}
 
 /// A hinge of the cloth: edge ij between the triangles with apexes k and l.
 #[derive(Clone, Copy, Debug)]

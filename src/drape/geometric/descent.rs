@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::GeometricError;
 use super::energy::Energies;
-use super::problem::Problem;
+use super::problem::RecoveryProblem;
 use crate::geometry::Vec3;
 use crate::linear::{Cholesky, NotPositiveDefinite, SymmetricMatrix};
 
@@ -31,7 +31,7 @@ impl Default for SolveOptions {
 
 /// Outcome of a solver run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct SolverReport {
     /// Iterations made.
     pub iterations: usize,
     /// Whether the tolerance was met, or no step lowers the energy any more in 64-bit numbers.
@@ -49,8 +49,8 @@ pub struct Report {
 }
 
 /// One run of a solver.
-pub(super) struct Run<'a> {
-    problem: &'a Problem<'a>,
+pub(super) struct SolverRun<'a> {
+    problem: &'a RecoveryProblem<'a>,
     options: SolveOptions,
     history: Vec<f64>,
     motion: f64,
@@ -64,8 +64,8 @@ pub(super) struct Clock {
     pub(super) solve: Duration,
 }
 
-impl<'a> Run<'a> {
-    pub(super) fn new(problem: &'a Problem, options: SolveOptions, x: &[Vec3]) -> Result<Self, GeometricError> {
+impl<'a> SolverRun<'a> {
+    pub(super) fn new(problem: &'a RecoveryProblem, options: SolveOptions, x: &[Vec3]) -> Result<Self, GeometricError> {
         problem.check_start(x)?;
         Ok(Self { problem, options, history: vec![problem.energy(x)], motion: f64::INFINITY, converged: false })
     }
@@ -92,8 +92,8 @@ impl<'a> Run<'a> {
         !self.converged && self.history.len() <= self.options.max_iterations
     }
 
-    pub(super) fn report(self, x: &[Vec3], clock: &Clock) -> Report {
-        Report {
+    pub(super) fn report(self, x: &[Vec3], clock: &Clock) -> SolverReport {
+        SolverReport {
             iterations: self.history.len() - 1,
             converged: self.converged,
             energy: self.problem.cloth.energy(x, &self.problem.recovery),

@@ -1,12 +1,10 @@
 //! The energy (7) and its gradient.
 
 use super::Weights;
+use super::bend::direction;
 use super::recovery::Recovery;
 use super::stencils::Stencils;
 use crate::geometry::Vec3;
-
-/// Length below which an edge has no direction, metres: far below any real edge and far above rounding.
-const SHORTEST: f64 = 1e-12;
 
 /// The terms of (7).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,12 +17,6 @@ pub struct Energies {
     pub bend: f64,
     /// ω_R E_P + ω_S E_L + ω_B E_A.
     pub total: f64,
-}
-
-/// Unit direction and length of an edge vector. No direction where it has no length.
-pub(super) fn direction(edge: Vec3) -> (Vec3, f64) {
-    let length = edge.norm();
-    if length > SHORTEST { (edge / length, length) } else { (Vec3::zeros(), length) }
 }
 
 pub(super) fn energies(stencils: &Stencils, weights: &Weights, x: &[Vec3], recovery: &Recovery) -> Energies {

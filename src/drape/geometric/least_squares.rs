@@ -13,12 +13,12 @@
 
 use std::sync::Arc;
 
-use super::descent::{Clock, Report, Run, SolveOptions, factored, hold, largest_motion, timed};
-use super::energy::direction;
+use super::bend::direction;
+use super::descent::{Clock, SolveOptions, SolverReport, SolverRun, factored, hold, largest_motion, timed};
 use super::handles::Handles;
-use super::problem::Problem;
+use super::problem::RecoveryProblem;
 use super::recovery::Recovery;
-use super::stencils::Length;
+use super::stencils::LengthStencil;
 use super::{GeometricCloth, GeometricError};
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{BlockSlot, Cholesky, SymmetricMatrix, SymmetricPattern};
@@ -32,7 +32,7 @@ const DOUBLINGS: usize = 4;
 /// Gauss–Newton, prepared for one cloth, its recovery term and one set of held vertices.
 #[derive(Debug)]
 pub struct LeastSquares<'a> {
-    problem: Problem<'a>,
+    problem: RecoveryProblem<'a>,
     system: System,
 }
 
@@ -42,7 +42,7 @@ struct System {
     /// Recovery, bend and held rows: the part that does not change.
     constant: SymmetricMatrix<f64>,
     /// Places of every edge whose ends are not both held.
-    edges: Vec<Place>,
+    edges: Vec<EdgeBlock>,
     matrix: SymmetricMatrix<f64>,
     factor: Cholesky<f64>,
 }
@@ -58,8 +58,8 @@ enum Linearised {
 
 /// Place of an edge's block. A held end has none.
 #[derive(Debug)]
-struct Place {
-    edge: Length,
+struct EdgeBlock {
+    edge: LengthStencil,
     diagonal: [Option<BlockSlot>; 2],
     between: Option<BlockSlot>,
 }
@@ -70,7 +70,7 @@ impl<'a> LeastSquares<'a> {
     /// # Errors
     /// As [`super::Alternating::new`].
     pub fn new(cloth: &'a GeometricCloth, held: &[u32], recovery: Recovery) -> Result<Self, GeometricError> {
-        let problem = Problem::new(cloth, held, recovery)?;
+        let problem = RecoveryProblem::new(cloth, held, recovery)?;
         let system = System::new(&problem)?;
         Ok(Self { problem, system })
     }
@@ -79,9 +79,9 @@ impl<'a> LeastSquares<'a> {
     ///
     /// # Errors
     /// As [`super::Alternating::solve`]. [`GeometricError::Singular`] when a matrix has no factor.
-    pub fn solve(&mut self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<Report, GeometricError> {
+    pub fn solve(&mut self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<SolverReport, GeometricError> {
         let problem = &self.problem;
-        let mut run = Run::new(problem, options, x)?;
+        let mut run = SolverRun::new(problem, options, x)?;
         let mut clock = Clock::default();
         while run.goes_on() {
             let step = self.system.step(problem, x, &problem.recovery, Linearised::WithTension, &mut clock)?;
@@ -115,18 +115,18 @@ impl<'a> LeastSquares<'a> {
 }
 
 impl System {
-    fn new(problem: &Problem) -> Result<Self, GeometricError> {
+    fn new(problem: &RecoveryProblem) -> Result<Self, GeometricError> {
         let pattern = pattern(problem)?;
         let constant = constant(problem, &pattern);
         let edges = problem.cloth.stencils.edges.iter();
-        let edges = edges.map(|e| Place::new(e, &problem.handles, &pattern)).collect();
+        let edges = edges.map(|e| EdgeBlock::new(e, &problem.handles, &pattern)).collect();
         Ok(Self { matrix: constant.clone(), constant, edges, factor: Cholesky::new(pattern)? })
     }
 
     /// The full Gauss–Newton step at `x`.
     fn step(
         &mut self,
-        problem: &Problem,
+        problem: &RecoveryProblem,
         x: &[Vec3],
         recovery: &Recovery,
         linearised: Linearised,
@@ -166,8 +166,8 @@ impl System {
     }
 }
 
-impl Place {
-    fn new(edge: &Length, handles: &Handles, pattern: &SymmetricPattern) -> Self {
+impl EdgeBlock {
+    fn new(edge: &LengthStencil, handles: &Handles, pattern: &SymmetricPattern) -> Self {
         let free = edge.ends.map(|v| !handles.holds(v));
         let [a, b] = edge.ends.map(|v| v as usize);
         let slot = |wanted: bool, i, j| if wanted { pattern.block_slot(i, j) } else { None };
@@ -180,7 +180,7 @@ impl Place {
 }
 
 /// The step, doubled or halved for as long as that lowers the energy. None if all of them raise it over `last`.
-fn downhill(x: &[Vec3], step: &[Vec3], problem: &Problem, last: f64) -> Option<(Vec<Vec3>, f64)> {
+fn downhill(x: &[Vec3], step: &[Vec3], problem: &RecoveryProblem, last: f64) -> Option<(Vec<Vec3>, f64)> {
     let at = |share: f64| {
         let to: Vec<Vec3> = x.iter().zip(step).map(|(x, d)| x + d * share).collect();
         let total = problem.energy(&to);
@@ -207,7 +207,7 @@ fn downhill(x: &[Vec3], step: &[Vec3], problem: &Problem, last: f64) -> Option<(
     falls(&best).then_some(best)
 }
 
-fn pattern(problem: &Problem) -> Result<Arc<SymmetricPattern>, GeometricError> {
+fn pattern(problem: &RecoveryProblem) -> Result<Arc<SymmetricPattern>, GeometricError> {
     let stencils = &problem.cloth.stencils;
     let pair = |a: u32, b: u32| (a as usize, b as usize);
     let edges = stencils.edges.iter().map(|e| pair(e.ends[0], e.ends[1]));
@@ -217,7 +217,7 @@ fn pattern(problem: &Problem) -> Result<Arc<SymmetricPattern>, GeometricError> {
     Ok(Arc::new(SymmetricPattern::blocks(stencils.points.len(), edges.chain(hinges).chain(controls))?))
 }
 
-fn constant(problem: &Problem, pattern: &Arc<SymmetricPattern>) -> SymmetricMatrix<f64> {
+fn constant(problem: &RecoveryProblem, pattern: &Arc<SymmetricPattern>) -> SymmetricMatrix<f64> {
     let GeometricCloth { stencils, weights } = problem.cloth;
     let mut entries = problem.recovery.entries(stencils, weights.recovery);
     entries.extend(stencils.bend_entries(weights.bend));

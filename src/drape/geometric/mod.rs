@@ -37,7 +37,7 @@ mod stencils;
 use crate::geometry::{TriMesh, Vec2, Vec3};
 
 pub use alternating::Alternating;
-pub use descent::{Report, SolveOptions};
+pub use descent::{SolveOptions, SolverReport};
 pub use energy::Energies;
 pub use error::GeometricError;
 pub use least_squares::LeastSquares;

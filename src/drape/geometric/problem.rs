@@ -7,13 +7,13 @@ use crate::geometry::Vec3;
 
 /// A cloth, its recovery term, and the vertices that are held.
 #[derive(Debug)]
-pub(super) struct Problem<'a> {
+pub(super) struct RecoveryProblem<'a> {
     pub(super) cloth: &'a GeometricCloth,
     pub(super) handles: Handles,
     pub(super) recovery: Recovery,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> RecoveryProblem<'a> {
     pub(super) fn new(cloth: &'a GeometricCloth, held: &[u32], recovery: Recovery) -> Result<Self, GeometricError> {
         recovery.check(cloth.vertices())?;
         Ok(Self { cloth, handles: Handles::new(cloth.vertices(), held)?, recovery })

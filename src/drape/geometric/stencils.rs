@@ -3,7 +3,7 @@
 use super::bend::Bend;
 use super::hinge::{Apex, Hinge};
 use super::{GeometricError, PUBLISHED_CELL, Weighting};
-use crate::geometry::{Edge, Topology, Vec2};
+use crate::geometry::{MeshEdge, Topology, Vec2};
 
 /// Scale of the area-weighted E_L: a square cell with a diagonal stretched along one side then has the plain sum
 /// (ε² h² (1 + ½) = s ε² h² (⅓ + ½·⅙)).
@@ -19,7 +19,7 @@ const FLATTEST: f64 = 1e-9;
 
 /// One member of E_L.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Length {
+pub(super) struct LengthStencil {
     pub(super) ends: [u32; 2],
     /// L_M, metres.
     pub(super) rest: f64,
@@ -33,7 +33,7 @@ pub(super) struct Stencils {
     pub(super) points: Vec<f64>,
     /// N, the area of the initial mesh in published cells: the weight of every control point in E_P.
     pub(super) cells: f64,
-    pub(super) edges: Vec<Length>,
+    pub(super) edges: Vec<LengthStencil>,
     pub(super) hinges: Vec<Bend>,
 }
 
@@ -49,7 +49,7 @@ impl Stencils {
 }
 
 /// The initial mesh while it is read.
-struct Rest<'a> {
+struct InitialMesh<'a> {
     triangles: &'a [[u32; 3]],
     corners: &'a [[Vec2; 3]],
     weighting: Weighting,
@@ -62,7 +62,7 @@ impl Stencils {
         corners: &[[Vec2; 3]],
         weighting: Weighting,
     ) -> Result<Self, GeometricError> {
-        let rest = Rest { triangles, corners, weighting };
+        let rest = InitialMesh { triangles, corners, weighting };
         rest.check(vertices)?;
         let topology = Topology::new(triangles);
         if let Some(&edge) = topology.non_manifold.first() {
@@ -77,7 +77,7 @@ impl Stencils {
     }
 }
 
-impl Rest<'_> {
+impl InitialMesh<'_> {
     fn check(&self, vertices: usize) -> Result<(), GeometricError> {
         for (t, nodes) in self.triangles.iter().enumerate() {
             if nodes.iter().any(|&v| v as usize >= vertices) {
@@ -111,7 +111,7 @@ impl Rest<'_> {
         out
     }
 
-    fn length(&self, edge: &Edge) -> Length {
+    fn length(&self, edge: &MeshEdge) -> LengthStencil {
         let beside: Vec<usize> = edge.triangles.iter().flatten().map(|&t| t as usize).collect();
         let lengths = beside.iter().map(|&t| self.ends(t, edge.ends)).map(|[a, b]| (b - a).norm());
         let rest = lengths.sum::<f64>() / beside.len() as f64;
@@ -121,10 +121,10 @@ impl Rest<'_> {
                 STRETCH_SCALE * EDGE_SHARE * beside.iter().map(|&t| self.area(t)).sum::<f64>() / (rest * rest)
             }
         };
-        Length { ends: edge.ends, rest, weight }
+        LengthStencil { ends: edge.ends, rest, weight }
     }
 
-    fn bend(&self, edge: &Edge) -> Option<Bend> {
+    fn bend(&self, edge: &MeshEdge) -> Option<Bend> {
         let [Some(s), Some(t)] = edge.triangles.map(|t| t.map(|t| t as usize)) else { return None };
         let (k, l) = (self.apex(s, edge.ends)?, self.apex(t, edge.ends)?);
         // Two triangles on the same three vertices lie on each other. There is nothing to bend.

@@ -99,7 +99,7 @@ struct Trial {
 }
 
 /// Verdict on a trial step.
-enum Verdict {
+enum TrialVerdict {
     /// Accepted, with its s (see the module).
     Fine(f64),
     /// Refused because of this particle.
@@ -163,8 +163,8 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
             let step = self.ahead;
             let trial = self.attempt(step);
             match (self.judge(&trial, step), self.control) {
-                (Verdict::Fine(_), StepControl::Fixed { .. }) => self.accept(trial, step),
-                (Verdict::Fine(index), StepControl::Adaptive { largest, .. }) if index <= LARGEST_INDEX => {
+                (TrialVerdict::Fine(_), StepControl::Fixed { .. }) => self.accept(trial, step),
+                (TrialVerdict::Fine(index), StepControl::Adaptive { largest, .. }) if index <= LARGEST_INDEX => {
                     self.accept(trial, step);
                     if index < CALM_INDEX {
                         self.ahead = (step * GROWTH).min(largest);
@@ -252,18 +252,18 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
         Trial { x, velocity, force }
     }
 
-    fn judge(&self, trial: &Trial, step: f64) -> Verdict {
+    fn judge(&self, trial: &Trial, step: f64) -> TrialVerdict {
         let most = self.control.most();
         let (mut softening, mut inertia) = (0.0, 0.0);
         for i in (0..self.x.len()).filter(|&i| self.inverse_mass[i] > 0.0) {
             let way = trial.velocity[i] * step;
             if way.norm() > most || !is_finite(&way) || !is_finite(&trial.force[i]) {
-                return Verdict::Bad(i);
+                return TrialVerdict::Bad(i);
             }
             softening += way.dot(&(self.force[i] - trial.force[i]));
             inertia += way.norm_squared() / self.inverse_mass[i];
         }
-        Verdict::Fine(if inertia > 0.0 { step * step * softening / inertia } else { 0.0 })
+        TrialVerdict::Fine(if inertia > 0.0 { step * step * softening / inertia } else { 0.0 })
     }
 
     fn accept(&mut self, trial: Trial, step: f64) {
@@ -273,8 +273,8 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
     }
 
     /// Halves the next step, or ends the run where that is not possible.
-    fn shrink(&mut self, verdict: &Verdict, control: StepControl) -> Result<(), ExplicitError> {
-        let particle = if let Verdict::Bad(particle) = verdict { *particle } else { self.fastest() };
+    fn shrink(&mut self, verdict: &TrialVerdict, control: StepControl) -> Result<(), ExplicitError> {
+        let particle = if let TrialVerdict::Bad(particle) = verdict { *particle } else { self.fastest() };
         let step = self.ahead;
         match control {
             StepControl::Adaptive { smallest, .. } if step * SHRINK >= smallest => {

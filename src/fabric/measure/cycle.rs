@@ -9,7 +9,7 @@ use crate::fabric::units::GF_PER_CM;
 
 /// Test of a curve, with the units of its two columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum CurveKind {
     /// Strain %, load gf/cm (KES-FB1).
     Tensile,
     /// Shear angle in degrees, load gf/cm (KES-FB1).
@@ -18,7 +18,7 @@ pub(super) enum Kind {
     Bending,
 }
 
-impl Kind {
+impl CurveKind {
     fn units(self) -> [&'static str; 2] {
         match self {
             Self::Tensile => ["%", "gf/cm"],
@@ -33,7 +33,7 @@ const NOISE: f64 = 0.1;
 
 /// Slope and hystereses of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Loop {
+pub(super) struct CycleLoop {
     /// Slope of the middle line between both places.
     pub(super) slope: f64,
     /// Width of the loop at both places, if the curve comes down again.
@@ -51,7 +51,7 @@ pub(super) struct Cycle {
 
 impl Cycle {
     /// Reads two columns. A first line with words is a header and must name the units of `kind`.
-    pub(super) fn parse(text: &str, file: &str, kind: Kind) -> Result<Self, MeasureError> {
+    pub(super) fn parse(text: &str, file: &str, kind: CurveKind) -> Result<Self, MeasureError> {
         let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row), why };
         let [across, up] = kind.units();
         let (mut rows, mut lines) = (Vec::new(), Vec::new());
@@ -95,10 +95,10 @@ impl Cycle {
 
     /// Slope between the places `from` and `to`, and the loop's width at `at`: the mean of both halves of a cycle that
     /// goes to both sides.
-    pub(super) fn read(&self, [from, to]: [f64; 2], at: [f64; 2]) -> Result<Loop, MeasureError> {
+    pub(super) fn read(&self, [from, to]: [f64; 2], at: [f64; 2]) -> Result<CycleLoop, MeasureError> {
         let mirrored: Vec<(f64, f64)> = self.rows.iter().map(|r| (-r.0, -r.1)).collect();
         let halves = [&self.rows, &mirrored].map(|rows| half(rows, [from, to], at));
-        let found: Vec<Loop> = halves.into_iter().flatten().collect();
+        let found: Vec<CycleLoop> = halves.into_iter().flatten().collect();
         let [first, ..] = found[..] else {
             return Err(self.fault(format!("the curve must rise past {to} from {from} or less")));
         };
@@ -117,7 +117,7 @@ impl Cycle {
                 "it comes down above where it went up, by {:.4}; are the rows in the order of the test?",
                 -width
             ))),
-            None => Ok(Loop { slope, widths: widths.map(|widths| widths.map(|w| w.max(0.0))) }),
+            None => Ok(CycleLoop { slope, widths: widths.map(|widths| widths.map(|w| w.max(0.0))) }),
         }
     }
 
@@ -142,7 +142,7 @@ impl Cycle {
     }
 }
 
-fn half(rows: &[(f64, f64)], [from, to]: [f64; 2], at: [f64; 2]) -> Option<Loop> {
+fn half(rows: &[(f64, f64)], [from, to]: [f64; 2], at: [f64; 2]) -> Option<CycleLoop> {
     let [up, down] = Cycle::branches(rows).map(|branch| &rows[branch]);
     let rising = |x: f64| value_at(up, x);
     let falling = |x: f64| value_at(down, x);
@@ -152,7 +152,7 @@ fn half(rows: &[(f64, f64)], [from, to]: [f64; 2], at: [f64; 2]) -> Option<Loop>
     let slope = (line(to)? - line(from)?) / (to - from);
     let width = |x: f64| Some(rising(x)? - falling(x)?);
     let widths = if whole { Some([width(at[0])?, width(at[1])?]) } else { None };
-    Some(Loop { slope, widths })
+    Some(CycleLoop { slope, widths })
 }
 
 /// A branch at x, between its points only.
@@ -191,45 +191,47 @@ mod tests {
             row(-k, -b * k + hb);
         }
         let found =
-            Cycle::parse(&text, "b.csv", Kind::Bending).expect("curve").read([0.5, 1.5], [1.0; 2]).expect("loop");
+            Cycle::parse(&text, "b.csv", CurveKind::Bending).expect("curve").read([0.5, 1.5], [1.0; 2]).expect("loop");
         assert_relative_eq!(found.slope, b, epsilon = 1e-12);
         assert_relative_eq!(found.widths.expect("it comes down")[0], 2.0 * hb, epsilon = 1e-12);
     }
 
     #[test]
     fn a_curve_that_only_rises_has_no_hysteresis() {
-        let found = Cycle::parse("0,0\n4,2\n8,4", "s.csv", Kind::Shear).expect("curve").read([0.5, 5.0], [0.5, 5.0]);
-        assert_eq!(found, Ok(Loop { slope: 0.5, widths: None }));
+        let found =
+            Cycle::parse("0,0\n4,2\n8,4", "s.csv", CurveKind::Shear).expect("curve").read([0.5, 5.0], [0.5, 5.0]);
+        assert_eq!(found, Ok(CycleLoop { slope: 0.5, widths: None }));
     }
 
     #[test]
     fn a_tensile_cycle_gives_its_curve_and_resilience() {
         let text = "strain %, load gf/cm\n0,0\n1,100\n2,300\n1.5,100\n1,0\n";
-        let (curve, rt) = Cycle::parse(text, "t.csv", Kind::Tensile).expect("curve").tensile().expect("curve");
+        let (curve, rt) = Cycle::parse(text, "t.csv", CurveKind::Tensile).expect("curve").tensile().expect("curve");
         assert_relative_eq!(curve.load(0.015), 196.133, max_relative = 1e-9);
         assert_relative_eq!(rt.expect("it comes down"), (100.0 + 25.0) / (50.0 + 200.0), epsilon = 1e-12);
     }
 
     #[test]
     fn a_loop_that_runs_the_wrong_way_is_refused() {
-        let bent = Cycle::parse("0,0\n1,1\n2,2\n1,1.5\n0,1", "b.csv", Kind::Bending).expect("curve");
+        let bent = Cycle::parse("0,0\n1,1\n2,2\n1,1.5\n0,1", "b.csv", CurveKind::Bending).expect("curve");
         let said = bent.read([0.5, 1.5], [1.0; 2]).expect_err("over itself").to_string();
         assert!(said.contains("comes down above where it went up, by 0.5"), "{said}");
-        let pulled = Cycle::parse("0,0\n1,10\n2,50\n1,45\n0,1", "t.csv", Kind::Tensile).expect("curve");
+        let pulled = Cycle::parse("0,0\n1,10\n2,50\n1,45\n0,1", "t.csv", CurveKind::Tensile).expect("curve");
         let said = pulled.tensile().expect_err("more work").to_string();
         assert!(said.contains("gives back 201 % of the work"), "{said}");
     }
 
     #[test]
     fn wrong_rows_are_named() {
-        let said = |text: &str| Cycle::parse(text, "b.csv", Kind::Bending).expect_err(text).to_string();
+        let said = |text: &str| Cycle::parse(text, "b.csv", CurveKind::Bending).expect_err(text).to_string();
         assert_eq!(said("0,0\n1,x\n2,3"), "b.csv, row 2: '1,x' is no pair of numbers");
         assert!(said("curvature, moment\n0,0").contains("must name the units, 1/cm and gf.cm/cm"));
         assert!(said("0,0,0").contains("3 columns"));
         assert!(said("0;0\n0,5;1\n1;2").contains("row 2: '0,5;1' is no pair of numbers"));
-        assert!(Cycle::parse("0,0,\n1,1,\n2,2,", "b.csv", Kind::Bending).is_ok());
+        assert!(Cycle::parse("0,0,\n1,1,\n2,2,", "b.csv", CurveKind::Bending).is_ok());
         assert!(said("0,0\n1,1").contains("2 rows are no curve"));
-        let short = Cycle::parse("0,0\n.5,1\n1,2", "b.csv", Kind::Bending).expect("curve").read([0.5, 1.5], [1.0; 2]);
+        let short =
+            Cycle::parse("0,0\n.5,1\n1,2", "b.csv", CurveKind::Bending).expect("curve").read([0.5, 1.5], [1.0; 2]);
         assert!(short.expect_err("short").to_string().contains("must rise past 1.5"));
     }
 }

@@ -7,7 +7,7 @@ use serde_yaml::Mapping;
 
 use super::geometric::{PHOTO_ERROR, Readings, TESTS};
 use super::photo::{CLEAR, Photo};
-use super::{MeasureError, laboratory::Sheet};
+use super::{MeasureError, laboratory::DataSheet};
 use crate::fabric::columns::{Columns, above_zero, rows};
 use crate::fabric::library::read;
 use crate::input::yaml;
@@ -32,13 +32,13 @@ const IMAGED: f64 = 1840.0;
     default,
     expecting = "a map of recovery, stretch, bend, means, table, sheet, curves or values"
 )]
-pub(super) struct File {
+pub(super) struct MeasureFile {
     pub(super) name: Option<String>,
     pub(super) description: Option<String>,
     pub(super) source: Option<String>,
-    recovery: Option<Test>,
-    stretch: Option<Test>,
-    bend: Option<Test>,
+    recovery: Option<ExtensionTest>,
+    stretch: Option<ExtensionTest>,
+    bend: Option<ExtensionTest>,
     means: Option<Means>,
     /// File of a table with the readings of all three tests.
     table: Option<PathBuf>,
@@ -51,7 +51,7 @@ pub(super) struct File {
 /// One of the three tests.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a map of initial, unit, readings, photos or load")]
-struct Test {
+struct ExtensionTest {
     initial: Option<f64>,
     /// For the reader. Ratios have none.
     #[serde(rename = "unit")]
@@ -70,7 +70,7 @@ struct Photos {
     #[serde(default)]
     threshold: Option<u8>,
     #[serde(default)]
-    cloth: Cloth,
+    cloth: ClothTone,
     /// Area a whole picture shows, cm².
     #[serde(default)]
     imaged: Option<f64>,
@@ -78,7 +78,7 @@ struct Photos {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Cloth {
+enum ClothTone {
     #[default]
     Dark,
     Light,
@@ -116,16 +116,16 @@ pub(super) enum Geometric {
 }
 
 /// A file that was read, with the sheet if it is nothing else.
-pub(super) struct Source {
-    pub(super) file: File,
+pub(super) struct ReadMeasurement {
+    pub(super) file: MeasureFile,
     pub(super) geometric: Option<Geometric>,
-    pub(super) sheets: Vec<Sheet>,
+    pub(super) sheets: Vec<DataSheet>,
     /// Everything that was read.
     pub(super) inputs: Vec<PathBuf>,
     pub(super) notes: Vec<String>,
 }
 
-impl Source {
+impl ReadMeasurement {
     pub(super) fn read(path: &Path) -> Result<Self, MeasureError> {
         let mut out = Self::parse(&read(path)?, path)?;
         out.inputs.insert(0, path.to_owned());
@@ -136,11 +136,16 @@ impl Source {
     pub(super) fn parse(text: &str, path: &Path) -> Result<Self, MeasureError> {
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let mut out =
-            Self { file: File::default(), geometric: None, sheets: Vec::new(), inputs: Vec::new(), notes: Vec::new() };
+        let mut out = Self {
+            file: MeasureFile::default(),
+            geometric: None,
+            sheets: Vec::new(),
+            inputs: Vec::new(),
+            notes: Vec::new(),
+        };
         let is_table = path.extension().is_some_and(|e| TABLES.iter().any(|t| e.eq_ignore_ascii_case(t)));
-        if is_table && Sheet::is_one(text) {
-            out.sheets.push(Sheet::parse(text, &name)?);
+        if is_table && DataSheet::is_one(text) {
+            out.sheets.push(DataSheet::parse(text, &name)?);
         } else if is_table {
             out.geometric = Some(out.tests_of(text, &name)?);
         } else {
@@ -153,11 +158,11 @@ impl Source {
             if let Some(sheet) = out.file.sheet.clone() {
                 let path = folder.join(&sheet);
                 let text = read(&path)?;
-                if !Sheet::is_one(&text) {
+                if !DataSheet::is_one(&text) {
                     let why = "a sheet begins with the line `parameter, warp, weft, unit`".to_owned();
                     return Err(MeasureError::File { file: sheet.display().to_string(), row: Some(1), why });
                 }
-                out.sheets.push(Sheet::parse(&text, &sheet.display().to_string())?);
+                out.sheets.push(DataSheet::parse(&text, &sheet.display().to_string())?);
                 out.inputs.push(path);
             }
         }
@@ -202,7 +207,7 @@ impl Source {
         Ok(Geometric::Tests(tests))
     }
 
-    fn readings(&mut self, k: usize, test: Test, folder: &Path) -> Result<Readings, MeasureError> {
+    fn readings(&mut self, k: usize, test: ExtensionTest, folder: &Path) -> Result<Readings, MeasureError> {
         let fault = |why: &str| Err(MeasureError::Test { test: TESTS[k], why: why.to_owned() });
         if let Some(load) = test.load {
             if k != 1 {
@@ -253,7 +258,7 @@ impl Source {
                 );
                 return Err(fault(why));
             }
-            let share = photo.share(threshold, photos.cloth == Cloth::Light);
+            let share = photo.share(threshold, photos.cloth == ClothTone::Light);
             if share <= 0.0 || share >= 1.0 {
                 let found = if share <= 0.0 { "no pixel" } else { "every pixel" };
                 let what =

@@ -20,13 +20,13 @@ const ALL: f64 = 100.0;
 
 /// A sheet: parameters with their values along warp and weft.
 #[derive(Clone, Debug)]
-pub(super) struct Sheet {
+pub(super) struct DataSheet {
     file: String,
-    rows: Vec<Row>,
+    rows: Vec<Parameter>,
 }
 
 #[derive(Clone, Debug)]
-struct Row {
+struct Parameter {
     line: usize,
     name: String,
     /// Warp and weft. A parameter without direction has the same twice.
@@ -71,7 +71,7 @@ const COLUMNS: [&str; 4] = ["parameter", "warp", "weft", "unit"];
 /// Grams per square metre in one kg/m².
 const GRAMS: f64 = 1e3;
 
-impl Sheet {
+impl DataSheet {
     /// Whether a text's first row is that of a sheet.
     pub(super) fn is_one(text: &str) -> bool {
         rows(text).next().is_some_and(|(_, header)| Columns::new(header).names()[0] == COLUMNS[0])
@@ -92,9 +92,9 @@ impl Sheet {
         for (place, name) in places.iter_mut().zip(COLUMNS) {
             *place = columns.find(name).map_err(|why| fault(first, why))?;
         }
-        let mut rows: Vec<Row> = Vec::new();
+        let mut rows: Vec<Parameter> = Vec::new();
         for (line, text) in lines {
-            let row = Row::parse(line, &columns.cut(text).map_err(|why| fault(line, why))?, places);
+            let row = Parameter::parse(line, &columns.cut(text).map_err(|why| fault(line, why))?, places);
             let row = row.map_err(|why| fault(line, why))?;
             if rows.iter().any(|r| r.name == row.name) {
                 return Err(fault(line, format!("{} stands there twice", row.name)));
@@ -155,7 +155,7 @@ impl Sheet {
                 out.push(format!("{}: EMT along the {direction} is not used; {last} says how it stretches", self.file));
             }
         }
-        let nothing = |r: &&Row| is_fast_load(&r.name) && r.values.contains(&None) && r.has_zero;
+        let nothing = |r: &&Parameter| is_fast_load(&r.name) && r.values.contains(&None) && r.has_zero;
         out.extend(
             self.rows
                 .iter()
@@ -181,7 +181,7 @@ impl Sheet {
 
     /// Refuses a cloth that more load draws out less.
     fn rising(&self, k: usize) -> Result<(), MeasureError> {
-        let rows: Vec<(&Row, f64)> =
+        let rows: Vec<(&Parameter, f64)> =
             FAST_LOADS.iter().filter_map(|l| self.row(l.0)).filter_map(|r| Some((r, r.values[k]?))).collect();
         match rows.windows(2).find(|w| w[1].1 <= w[0].1) {
             Some([(before, less), (row, more)]) => Err(self.fault(
@@ -229,11 +229,11 @@ impl Sheet {
         Ok(out)
     }
 
-    fn row(&self, name: &str) -> Option<&Row> {
+    fn row(&self, name: &str) -> Option<&Parameter> {
         self.rows.iter().find(|r| r.name == name)
     }
 
-    fn fault(&self, row: &Row, why: String) -> MeasureError {
+    fn fault(&self, row: &Parameter, why: String) -> MeasureError {
         MeasureError::File { file: self.file.clone(), row: Some(row.line), why }
     }
 }
@@ -245,7 +245,7 @@ fn is_fast_load(name: &str) -> bool {
 /// Names of both directions in keys.
 pub(super) const DIRECTIONS: [&str; 2] = ["warp", "weft"];
 
-impl Row {
+impl Parameter {
     /// Reads the `fields` of a line. Parameter, warp, weft and unit are at `places`.
     fn parse(line: usize, fields: &[&str], places: [Option<usize>; 4]) -> Result<Self, String> {
         let [name, warp, weft, unit] = places.map(|k| k.and_then(|k| fields.get(k)).copied().unwrap_or_default());
@@ -315,7 +315,7 @@ mod tests {
     fn a_kes_sheet_becomes_values() {
         let text = "parameter, warp, weft, unit\nEMT, 4.7, 10\nWT, 6.4625, 13.75\nB, .067, .05\nG, .6, .55\n\
                     2HB, .03, .036\nMIU, .18, .2\nT0, .4\nW, 18, , mg/cm2\nSMD, 3, 4\n";
-        let (values, notes) = Sheet::parse(text, "kes.csv").expect("sheet").values("ours").expect("values");
+        let (values, notes) = DataSheet::parse(text, "kes.csv").expect("sheet").values("ours").expect("values");
         for (key, expected) in [
             ("tensile.weft.EMT", "10 %"),
             ("tensile.warp.LT", "0.55"),
@@ -335,7 +335,7 @@ mod tests {
     #[test]
     fn a_fast_sheet_becomes_values() {
         let text = "parameter,warp,weft,unit\nC,20,18,mm\nE5,.5,.8\nE20,1.1,1.7\nE100,2,3.5\nEB5,3,,%\nW,150,,g/m2\n";
-        let (values, _) = Sheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
+        let (values, _) = DataSheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
         // 9.8e-6 · 150 · 8000 = 11.76 µN·m. 123/3 = 41 N/m.
         assert_eq!(value(&values, "bend.warp"), "11.76 uN.m");
         assert_eq!(value(&values, "shear.G"), "41 N/m");
@@ -346,7 +346,7 @@ mod tests {
     fn the_mass_that_bending_follows_from_may_have_any_unit_of_mass() {
         for mass in ["W,150,,g/m2", "W,0.15,,kg/m2", "W,15,,mg/cm²", "W,140,160,g/m2"] {
             let text = format!("parameter,warp,weft,unit\nC,20,18,mm\n{mass}\n");
-            let (values, _) = Sheet::parse(&text, "fast.csv").expect("sheet").values("ours").expect("values");
+            let (values, _) = DataSheet::parse(&text, "fast.csv").expect("sheet").values("ours").expect("values");
             assert_eq!(value(&values, "bend.warp"), "11.76 uN.m", "{mass}");
         }
     }
@@ -354,11 +354,12 @@ mod tests {
     #[test]
     fn columns_may_come_in_any_order_and_a_second_value_is_told() {
         let text = "# FAST-2\nparameter; weft; warp; unit\nB; 0.067; 0.15;\nC; 20; 18; mm\nW; 150; ; g/m2\n";
-        let (values, notes) = Sheet::parse(text, "a.csv").expect("sheet").values("ours").expect("values");
+        let (values, notes) = DataSheet::parse(text, "a.csv").expect("sheet").values("ours").expect("values");
         assert_eq!(value(&values, "bend.warp"), "0.15 gf.cm2/cm");
         assert_eq!(value(&values, "bend.weft"), "0.067 gf.cm2/cm");
         assert_eq!(notes[0], "a.csv: C is not used; the sheet has bend.warp already");
-        let comma = Sheet::parse("parameter;warp;weft;unit\nT0;1,25;;mm\n", "a.csv").expect_err("a comma").to_string();
+        let comma =
+            DataSheet::parse("parameter;warp;weft;unit\nT0;1,25;;mm\n", "a.csv").expect_err("a comma").to_string();
         assert_eq!(comma, "a.csv, row 2: T0: '1,25' is no number; write a decimal point");
     }
 
@@ -366,7 +367,7 @@ mod tests {
     fn a_whole_fast_sheet_is_read() {
         let text = "parameter,warp,weft,unit\nRS,-0.5,1,%\nF,0.4,0.6,mm2\nSTR,.1,,mm\nE5,0.0,.8,%\nE20,1.1,1.7\n\
                     E100,2,3.5\nEMT,9,9\nC,20,18\nW,150,,g/m2\nMIU,.2,.2,-\n";
-        let (values, notes) = Sheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
+        let (values, notes) = DataSheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
         assert_eq!(value(&values, "tensile.warp.curve"), "1.1:20 2:100");
         assert_eq!(value(&values, "friction"), "0.2");
         for told in ["RS is not used", "F is not used", "E5 of 0 is not used", "EMT along the warp is not used; E100"] {
@@ -378,7 +379,7 @@ mod tests {
     fn work_that_does_not_agree_with_linearity_is_told() {
         let notes = |work: &str| {
             let text = format!("parameter,warp,weft\nEMT,4.7,10\nLT,.6,.6\nWT,{work},15\n");
-            Sheet::parse(&text, "kes.csv").expect("sheet").values("ours").expect("values").1
+            DataSheet::parse(&text, "kes.csv").expect("sheet").values("ours").expect("values").1
         };
         assert!(notes("7.05").is_empty());
         assert_eq!(notes("40"), ["kes.csv: WT along the warp is 40, and by LT and EMT 7.05; WT is not used"]);
@@ -387,7 +388,7 @@ mod tests {
     #[test]
     fn wrong_rows_are_named() {
         let said = |rows: &str| {
-            let sheet = Sheet::parse(&format!("parameter,warp,weft,unit\n{rows}"), "kes.csv");
+            let sheet = DataSheet::parse(&format!("parameter,warp,weft,unit\n{rows}"), "kes.csv");
             sheet.and_then(|s| s.values("")).expect_err(rows).to_string()
         };
         assert!(said("EMMT,1,2").starts_with("kes.csv, row 2: unknown parameter 'EMMT'"));

@@ -32,8 +32,8 @@ use super::sheet::{FabricSheet, LiuMeasures, Measurement};
 use super::{Fabric, FabricError};
 use crate::fabric::units::GF_PER_CM;
 use crate::input::quoted;
-use cycle::{Cycle, Kind};
-use file::{Geometric, Source};
+use cycle::{CurveKind, Cycle};
+use file::{Geometric, ReadMeasurement};
 use laboratory::{DIRECTIONS, short};
 use values::put;
 
@@ -50,7 +50,7 @@ const LOADS: [f64; 9] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0]
 
 /// A fabric as measured.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct MeasuredFabric {
     /// Name, description, values and measures.
     pub sheet: FabricSheet,
     /// The fabric they make.
@@ -67,8 +67,8 @@ pub struct Measured {
 ///
 /// # Errors
 /// [`MeasureError`] for files that cannot be read, too few or impossible readings, and values of no cloth.
-pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
-    measured(Source::read(path)?, path, name)
+pub fn measure(path: &Path, name: &str) -> Result<MeasuredFabric, MeasureError> {
+    measured(ReadMeasurement::read(path)?, path, name)
 }
 
 /// As [`measure`], from the text of a file that need not exist: its name is the source that is said, and other files
@@ -76,11 +76,11 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
 ///
 /// # Errors
 /// As [`measure`].
-pub fn measure_text(text: &str, path: &Path, name: &str) -> Result<Measured, MeasureError> {
-    measured(Source::parse(text, path)?, path, name)
+pub fn measure_text(text: &str, path: &Path, name: &str) -> Result<MeasuredFabric, MeasureError> {
+    measured(ReadMeasurement::parse(text, path)?, path, name)
 }
 
-fn measured(source: Source, path: &Path, name: &str) -> Result<Measured, MeasureError> {
+fn measured(source: ReadMeasurement, path: &Path, name: &str) -> Result<MeasuredFabric, MeasureError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let said = source.file.source.clone().unwrap_or_else(|| format!("measured, {}", path.display()));
     let mut notes = source.notes.clone();
@@ -138,7 +138,7 @@ fn measured(source: Source, path: &Path, name: &str) -> Result<Measured, Measure
     let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name).map_err(blame)?;
     let context = Context { name: &sheet.name, folder: Path::new(""), garment: &[], given: None };
     let fabric = from_sheet(&written, &context).map_err(blame)?;
-    Ok(Measured { sheet, fabric, tests, notes, inputs })
+    Ok(MeasuredFabric { sheet, fabric, tests, notes, inputs })
 }
 
 /// Values read from recorded curves.
@@ -158,7 +158,7 @@ fn curves(
         Cycle::parse(&read(&folder.join(file))?, &file.display().to_string(), kind).map(Some)
     };
     for (direction, file) in DIRECTIONS.iter().zip([&files.tensile.warp, &files.tensile.weft]) {
-        if let Some(cycle) = load(file, Kind::Tensile)? {
+        if let Some(cycle) = load(file, CurveKind::Tensile)? {
             let (curve, resilience) = cycle.tensile()?;
             let last = curve.points[curve.points.len() - 1].1 / GF_PER_CM;
             let loads = LOADS.into_iter().filter(|l| *l < 0.999 * last).chain([last]);
@@ -172,13 +172,13 @@ fn curves(
     }
     let mut shear = Vec::new();
     for file in [&files.shear.warp, &files.shear.weft] {
-        if let Some(cycle) = load(file, Kind::Shear)? {
+        if let Some(cycle) = load(file, CurveKind::Shear)? {
             shear.push(cycle.read(SHEAR_PLACES, SHEAR_PLACES)?);
         }
     }
     let mut bend = Vec::new();
     for (direction, file) in DIRECTIONS.iter().zip([&files.bend.warp, &files.bend.weft]) {
-        if let Some(cycle) = load(file, Kind::Bending)? {
+        if let Some(cycle) = load(file, CurveKind::Bending)? {
             let found = cycle.read(BEND_PLACES, [BEND_MIDDLE; 2])?;
             add(format!("bend.{direction}"), format!("{} gf.cm2/cm", short(found.slope)));
             bend.push(found);

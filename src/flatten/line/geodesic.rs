@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::Spot;
+use super::SurfacePoint;
 use super::web::Web;
 use crate::geometry::{TriMesh, Vec2, sorted_pair};
 
@@ -17,15 +17,15 @@ const SURELY: f64 = 1e-7;
 const ALONG: f64 = 1e-9;
 
 /// The straightest way from the first vertex of a chain to its last, round the same side of every hole.
-pub(super) fn straightest(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<Spot> {
-    let as_it_is = || chain.iter().map(|&v| Spot::Vertex(v)).collect();
+pub(super) fn straightest(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<SurfacePoint> {
+    let as_it_is = || chain.iter().map(|&v| SurfacePoint::Vertex(v)).collect();
     let [from, .., to] = *chain else { return as_it_is() };
     let Some(triangles) = strip_along(web, chain) else { return as_it_is() };
-    let mut strip = Strip { surface, web, from, to, triangles };
+    let mut strip = TriangleStrip { surface, web, from, to, triangles };
     for _ in 0..ROUNDS {
         strip.clean();
         if strip.triangles.len() < 2 {
-            return if from == to { as_it_is() } else { vec![Spot::Vertex(from), Spot::Vertex(to)] };
+            return if from == to { as_it_is() } else { vec![SurfacePoint::Vertex(from), SurfacePoint::Vertex(to)] };
         }
         let Some(unfolded) = strip.unfolded() else { return as_it_is() };
         let bends = unfolded.drawn_tight();
@@ -76,7 +76,7 @@ fn fan(web: &Web, v: u32, [before, after]: [u32; 2], left: bool) -> Option<Vec<u
 }
 
 /// Neighbouring triangles from one vertex to another.
-struct Strip<'a> {
+struct TriangleStrip<'a> {
     surface: &'a TriMesh,
     web: &'a Web,
     from: u32,
@@ -87,7 +87,7 @@ struct Strip<'a> {
 /// An edge that the way crosses: the ends on its left and on its right.
 type Gate = [u32; 2];
 
-impl Strip<'_> {
+impl TriangleStrip<'_> {
     /// The edge between a triangle and the next.
     fn gate(&self, k: usize) -> Option<Gate> {
         let (own, next) = (self.web.corners(self.triangles[k]), self.web.corners(self.triangles[k + 1]));
@@ -152,7 +152,7 @@ impl Strip<'_> {
     }
 
     /// Leads the strip round those vertices on the other side of which the way is shorter; whether there were any.
-    fn lead(&mut self, unfolded: &Unfolded, bends: &[Bend]) -> bool {
+    fn lead(&mut self, unfolded: &Unfolded, bends: &[GateBend]) -> bool {
         let mut led = false;
         let mut end = usize::MAX;
         for (k, bend) in bends.iter().enumerate().rev() {
@@ -200,7 +200,7 @@ struct Unfolded {
 
 /// Where a drawn thread bends round an end of a gate.
 #[derive(Clone, Copy, Debug)]
-struct Bend {
+struct GateBend {
     portal: usize,
     /// 0 on the left, 1 on the right.
     side: usize,
@@ -208,8 +208,8 @@ struct Bend {
 
 impl Unfolded {
     /// The bends of a thread drawn tight from the start to the end: the funnel algorithm (Lee & Preparata 1984).
-    fn drawn_tight(&self) -> Vec<Bend> {
-        let mut bends: Vec<Bend> = Vec::new();
+    fn drawn_tight(&self) -> Vec<GateBend> {
+        let mut bends: Vec<GateBend> = Vec::new();
         let mut apex = self.portals[0][0];
         let mut funnel = [0, 0];
         let mut k = 1;
@@ -234,7 +234,7 @@ impl Unfolded {
             if let Some(side) = bent {
                 let portal = funnel[side];
                 apex = self.portals[portal][side];
-                bends.push(Bend { portal, side });
+                bends.push(GateBend { portal, side });
                 funnel = [portal; 2];
                 // Both sides of the funnel begin in its new tip.
                 k = portal + 1;
@@ -256,31 +256,31 @@ impl Unfolded {
     }
 
     /// The corners of the drawn thread with their portals, from the start to the end.
-    fn corners(&self, bends: &[Bend]) -> Vec<(usize, Vec2)> {
+    fn corners(&self, bends: &[GateBend]) -> Vec<(usize, Vec2)> {
         let last = self.portals.len() - 1;
         let bent = bends.iter().map(|b| (b.portal, self.portals[b.portal][b.side]));
         std::iter::once((0, self.portals[0][0])).chain(bent).chain([(last, self.portals[last][0])]).collect()
     }
 
     /// By how much the thread turns at a bend, radians.
-    fn turn(&self, bends: &[Bend], k: usize) -> f64 {
+    fn turn(&self, bends: &[GateBend], k: usize) -> f64 {
         let corners = self.corners(bends);
         let (before, after) = (corners[k + 1].1 - corners[k].1, corners[k + 2].1 - corners[k + 1].1);
         before.perp(&after).atan2(before.dot(&after)).abs()
     }
 
     /// The spots of the drawn thread.
-    fn spots(&self, strip: &Strip<'_>, bends: &[Bend]) -> Vec<Spot> {
+    fn spots(&self, strip: &TriangleStrip<'_>, bends: &[GateBend]) -> Vec<SurfacePoint> {
         let corners = self.corners(bends);
-        let mut spots = vec![Spot::Vertex(strip.from)];
+        let mut spots = vec![SurfacePoint::Vertex(strip.from)];
         for w in corners.windows(2) {
             let [(first, a), (last, b)] = [w[0], w[1]];
             for portal in first + 1..last {
                 spots.push(self.spot(strip, portal, [a, b]));
             }
             match bends.iter().find(|bend| bend.portal == last) {
-                Some(bend) => spots.push(Spot::Vertex(self.gates[last - 1][bend.side])),
-                None => spots.push(Spot::Vertex(strip.to)),
+                Some(bend) => spots.push(SurfacePoint::Vertex(self.gates[last - 1][bend.side])),
+                None => spots.push(SurfacePoint::Vertex(strip.to)),
             }
         }
         spots.dedup();
@@ -288,7 +288,7 @@ impl Unfolded {
     }
 
     /// Where a stretch of the thread crosses a gate.
-    fn spot(&self, strip: &Strip<'_>, portal: usize, [a, b]: [Vec2; 2]) -> Spot {
+    fn spot(&self, strip: &TriangleStrip<'_>, portal: usize, [a, b]: [Vec2; 2]) -> SurfacePoint {
         let ([left, right], ends) = (self.portals[portal], self.gates[portal - 1]);
         let (across, way) = (right - left, b - a);
         let (length, det) = (across.norm(), across.perp(&way));
@@ -301,10 +301,10 @@ impl Unfolded {
         for (side, end) in ends.into_iter().enumerate() {
             let off = length * if side == 0 { at } else { 1.0 - at };
             if off <= strip.web.near(end) {
-                return Spot::Vertex(end);
+                return SurfacePoint::Vertex(end);
             }
         }
         let [low, high] = sorted_pair(ends);
-        Spot::Edge { ends: [low, high], at: if low == ends[0] { at } else { 1.0 - at } }
+        SurfacePoint::Edge { ends: [low, high], at: if low == ends[0] { at } else { 1.0 - at } }
     }
 }

@@ -23,7 +23,7 @@ const AS_STRAIGHT: f64 = 5e-4;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spot {
+pub enum SurfacePoint {
     /// One of its vertices.
     Vertex(u32),
     /// A point of an edge.
@@ -42,7 +42,7 @@ pub enum Spot {
     },
 }
 
-impl Spot {
+impl SurfacePoint {
     /// Where it lies in space.
     pub fn place(&self, surface: &TriMesh) -> Vec3 {
         let at = |v: u32| surface.vertices[v as usize];
@@ -58,13 +58,13 @@ impl Spot {
 }
 
 /// The length of a line.
-pub fn length(surface: &TriMesh, line: &[Spot]) -> f64 {
+pub fn length(surface: &TriMesh, line: &[SurfacePoint]) -> f64 {
     line.windows(2).map(|w| (w[1].place(surface) - w[0].place(surface)).norm()).sum()
 }
 
 /// The straight line along a chain of neighbouring vertices: from its first to its last, on the same side of every
 /// hole. Where the section by the plane through both, upright on the surface, is as straight, it is that section.
-pub fn straightened(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<Spot> {
+pub fn straightened(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<SurfacePoint> {
     let straightest = geodesic::straightest(surface, web, chain);
     let (Some(&from), Some(&to)) = (chain.first(), chain.last()) else { return straightest };
     let way = surface.vertices[to as usize] - surface.vertices[from as usize];
@@ -76,7 +76,7 @@ pub fn straightened(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<Spot> {
     if normal.norm() <= f64::EPSILON * way.norm() * upright.norm() {
         return straightest;
     }
-    let plane = Plane { through: surface.vertices[from as usize], normal: normal.normalize() };
+    let plane = CuttingPlane { through: surface.vertices[from as usize], normal: normal.normalize() };
     match section::section(surface, web, plane, from, way, Some(to)) {
         Some(section) if lies_along(surface, &section, &straightest) => section,
         _ => straightest,
@@ -92,26 +92,26 @@ pub fn plane_section(
     from: u32,
     toward: Vec3,
     to: Option<u32>,
-) -> Option<Vec<Spot>> {
-    let plane = Plane { through: surface.vertices[from as usize], normal: normal.normalize() };
+) -> Option<Vec<SurfacePoint>> {
+    let plane = CuttingPlane { through: surface.vertices[from as usize], normal: normal.normalize() };
     section::section(surface, web, plane, from, toward, to)
 }
 
 /// A plane in space.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
+struct CuttingPlane {
     through: Vec3,
     /// A unit vector.
     normal: Vec3,
 }
 
 /// Whether a line meets the rim between its ends.
-fn passes_rim(web: &Web, line: &[Spot]) -> bool {
-    line[1..line.len() - 1].iter().any(|spot| matches!(spot, Spot::Vertex(v) if web.is_rim(*v)))
+fn passes_rim(web: &Web, line: &[SurfacePoint]) -> bool {
+    line[1..line.len() - 1].iter().any(|spot| matches!(spot, SurfacePoint::Vertex(v) if web.is_rim(*v)))
 }
 
 /// Whether a line is nowhere further from another than what counts as straight.
-fn lies_along(surface: &TriMesh, line: &[Spot], other: &[Spot]) -> bool {
+fn lies_along(surface: &TriMesh, line: &[SurfacePoint], other: &[SurfacePoint]) -> bool {
     let along: Vec<Vec3> = other.iter().map(|spot| spot.place(surface)).collect();
     line.iter().all(|spot| {
         let p = spot.place(surface);
@@ -121,7 +121,7 @@ fn lies_along(surface: &TriMesh, line: &[Spot], other: &[Spot]) -> bool {
 
 /// The part of a line from its beginning to `length` along it, whose end is a point between two of its spots; all of it
 /// where it is not that long.
-pub fn begun(surface: &TriMesh, web: &Web, line: &[Spot], length: f64) -> Vec<Spot> {
+pub fn begun(surface: &TriMesh, web: &Web, line: &[SurfacePoint], length: f64) -> Vec<SurfacePoint> {
     let mut left = length;
     let mut out = Vec::new();
     for w in line.windows(2) {

@@ -6,32 +6,32 @@
 use std::cmp::Ordering;
 
 use super::web::Web;
-use super::{Plane, Spot};
+use super::{CuttingPlane, SurfacePoint};
 use crate::geometry::{TriMesh, Vec3};
 
 /// From a vertex of the plane in the direction `toward` to the vertex `to`, or to the rim where there is none.
 pub(super) fn section(
     surface: &TriMesh,
     web: &Web,
-    plane: Plane,
+    plane: CuttingPlane,
     from: u32,
     toward: Vec3,
     to: Option<u32>,
-) -> Option<Vec<Spot>> {
+) -> Option<Vec<SurfacePoint>> {
     let walk = Walk { surface, web, plane, ends: [Some(from), to] };
-    let mut line = vec![Spot::Vertex(from)];
+    let mut line = vec![SurfacePoint::Vertex(from)];
     let (mut spot, mut triangle) = walk.leave(from, toward)?;
     for _ in 0..=2 * surface.triangles.len() {
         let before = *line.last()?;
         line.push(spot);
         let next = match spot {
-            Spot::Vertex(v) if Some(v) == to => return Some(line),
-            Spot::Vertex(v) => {
+            SurfacePoint::Vertex(v) if Some(v) == to => return Some(line),
+            SurfacePoint::Vertex(v) => {
                 let direction = spot.place(surface) - before.place(surface);
                 walk.leave(v, direction)
             }
-            Spot::Edge { ends, .. } => walk.cross(triangle, ends),
-            Spot::Face { .. } => None,
+            SurfacePoint::Edge { ends, .. } => walk.cross(triangle, ends),
+            SurfacePoint::Face { .. } => None,
         };
         match next {
             Some((next, beyond)) => (spot, triangle) = (next, beyond),
@@ -45,7 +45,7 @@ pub(super) fn section(
 struct Walk<'a> {
     surface: &'a TriMesh,
     web: &'a Web,
-    plane: Plane,
+    plane: CuttingPlane,
     /// Vertices that lie in the plane, whatever rounding says.
     ends: [Option<u32>; 2],
 }
@@ -58,20 +58,20 @@ impl Walk<'_> {
     }
 
     /// Where an edge crosses the plane, if its ends lie on different sides.
-    fn crossing(&self, a: u32, b: u32) -> Option<Spot> {
+    fn crossing(&self, a: u32, b: u32) -> Option<SurfacePoint> {
         let (p, q) = (self.height(a), self.height(b));
-        (p * q < 0.0).then(|| Spot::Edge { ends: [a, b], at: p / (p - q) })
+        (p * q < 0.0).then(|| SurfacePoint::Edge { ends: [a, b], at: p / (p - q) })
     }
 
     /// Where the line leaves a vertex most nearly in a direction, and the triangle it crosses.
-    fn leave(&self, v: u32, toward: Vec3) -> Option<(Spot, u32)> {
+    fn leave(&self, v: u32, toward: Vec3) -> Option<(SurfacePoint, u32)> {
         let here = self.surface.vertices[v as usize];
-        let mut best: Option<(f64, Spot, u32)> = None;
+        let mut best: Option<(f64, SurfacePoint, u32)> = None;
         for &t in self.web.round(v) {
             let corners = self.web.corners(t);
             let k = corners.iter().position(|&w| w == v)?;
             let (b, c) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
-            let on_plane = [b, c].into_iter().filter(|&w| self.height(w) == 0.0).map(Spot::Vertex);
+            let on_plane = [b, c].into_iter().filter(|&w| self.height(w) == 0.0).map(SurfacePoint::Vertex);
             for spot in on_plane.chain(self.crossing(b, c)) {
                 let way = spot.place(self.surface) - here;
                 let along = way.dot(&toward) / (way.norm() * toward.norm());
@@ -84,11 +84,11 @@ impl Walk<'_> {
     }
 
     /// Where the line goes on beyond an edge.
-    fn cross(&self, triangle: u32, ends: [u32; 2]) -> Option<(Spot, u32)> {
+    fn cross(&self, triangle: u32, ends: [u32; 2]) -> Option<(SurfacePoint, u32)> {
         let beyond = self.web.beyond(triangle, ends)?;
         let apex = self.web.corners(beyond).into_iter().find(|v| !ends.contains(v))?;
         if self.height(apex) == 0.0 {
-            return Some((Spot::Vertex(apex), beyond));
+            return Some((SurfacePoint::Vertex(apex), beyond));
         }
         let spot = self.crossing(ends[0], apex).or_else(|| self.crossing(ends[1], apex))?;
         Some((spot, beyond))

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{SNAP, SNAP_SHARE, Spot};
+use super::{SNAP, SNAP_SHARE, SurfacePoint};
 use crate::geometry::{Topology, TriMesh, Vec3, sorted_pair};
 
 /// No triangle.
@@ -79,12 +79,12 @@ impl Web {
     }
 
     /// A vector upright on the surface at a spot, as long as twice the area of the triangles there.
-    pub(super) fn normal(&self, surface: &TriMesh, spot: &Spot) -> Vec3 {
+    pub(super) fn normal(&self, surface: &TriMesh, spot: &SurfacePoint) -> Vec3 {
         let of = |ts: &[u32]| ts.iter().map(|&t| surface.double_normal(t as usize)).sum::<Vec3>();
         match *spot {
-            Spot::Vertex(v) => of(self.round(v)),
-            Spot::Face { triangle, .. } => of(&[triangle]),
-            Spot::Edge { ends, .. } => of(&self.beside(ends)),
+            SurfacePoint::Vertex(v) => of(self.round(v)),
+            SurfacePoint::Face { triangle, .. } => of(&[triangle]),
+            SurfacePoint::Edge { ends, .. } => of(&self.beside(ends)),
         }
     }
 
@@ -94,16 +94,16 @@ impl Web {
     }
 
     /// The triangles of which a spot is a point.
-    fn holding(&self, spot: Spot) -> Vec<u32> {
+    fn holding(&self, spot: SurfacePoint) -> Vec<u32> {
         match spot {
-            Spot::Vertex(v) => self.round(v).to_vec(),
-            Spot::Edge { ends, .. } => self.beside(ends),
-            Spot::Face { triangle, .. } => vec![triangle],
+            SurfacePoint::Vertex(v) => self.round(v).to_vec(),
+            SurfacePoint::Edge { ends, .. } => self.beside(ends),
+            SurfacePoint::Face { triangle, .. } => vec![triangle],
         }
     }
 
     /// The point at a share of the way from a spot to the next of a line.
-    pub(super) fn between(&self, surface: &TriMesh, from: Spot, to: Spot, share: f64) -> Spot {
+    pub(super) fn between(&self, surface: &TriMesh, from: SurfacePoint, to: SurfacePoint, share: f64) -> SurfacePoint {
         /// Shares nearer to an end than this are that end: a point beside it would leave needles.
         const END: f64 = 0.1;
         if share < END {
@@ -112,8 +112,8 @@ impl Web {
         if share > 1.0 - END {
             return to;
         }
-        if let (Spot::Vertex(a), Spot::Vertex(b)) = (from, to) {
-            return Spot::Edge { ends: [a, b], at: share };
+        if let (SurfacePoint::Vertex(a), SurfacePoint::Vertex(b)) = (from, to) {
+            return SurfacePoint::Edge { ends: [a, b], at: share };
         }
         let other = self.holding(to);
         let Some(triangle) = self.holding(from).into_iter().find(|t| other.contains(t)) else { return to };
@@ -124,26 +124,26 @@ impl Web {
     }
 
     /// A point of an edge, which is an end where it is near to one.
-    pub fn on_edge(&self, surface: &TriMesh, ends: [u32; 2], at: f64) -> Spot {
+    pub fn on_edge(&self, surface: &TriMesh, ends: [u32; 2], at: f64) -> SurfacePoint {
         let [a, b] = ends.map(|v| surface.vertices[v as usize]);
         let length = (b - a).norm();
         if at * length <= self.near(ends[0]) {
-            Spot::Vertex(ends[0])
+            SurfacePoint::Vertex(ends[0])
         } else if (1.0 - at) * length <= self.near(ends[1]) {
-            Spot::Vertex(ends[1])
+            SurfacePoint::Vertex(ends[1])
         } else {
-            Spot::Edge { ends, at }
+            SurfacePoint::Edge { ends, at }
         }
     }
 
     /// A point of a triangle, which is a point of an edge or a vertex where it is near to one.
-    pub fn on_side(&self, surface: &TriMesh, triangle: u32, weights: [f64; 3]) -> Spot {
+    pub fn on_side(&self, surface: &TriMesh, triangle: u32, weights: [f64; 3]) -> SurfacePoint {
         let corners = self.corners(triangle);
-        let spot = Spot::Face { triangle, weights };
+        let spot = SurfacePoint::Face { triangle, weights };
         let p = spot.place(surface);
         let at = |v: u32| surface.vertices[v as usize];
         if let Some(v) = corners.into_iter().find(|&v| (at(v) - p).norm() <= self.near(v)) {
-            return Spot::Vertex(v);
+            return SurfacePoint::Vertex(v);
         }
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
@@ -151,7 +151,7 @@ impl Web {
             let off = (p - at(a)) - along * along.dot(&(p - at(a)));
             if off.norm() <= self.near(a).min(self.near(b)) {
                 let share = along.dot(&(p - at(a))) / (at(b) - at(a)).norm();
-                return Spot::Edge { ends: [a, b], at: share.clamp(0.0, 1.0) };
+                return SurfacePoint::Edge { ends: [a, b], at: share.clamp(0.0, 1.0) };
             }
         }
         spot
@@ -159,15 +159,15 @@ impl Web {
 }
 
 /// The weights of a triangle's corners at a spot of it.
-fn weights(corners: [u32; 3], spot: Spot) -> [f64; 3] {
+fn weights(corners: [u32; 3], spot: SurfacePoint) -> [f64; 3] {
     let of = |v: u32, weight: f64| corners.map(|c| if c == v { weight } else { 0.0 });
     match spot {
-        Spot::Vertex(v) => of(v, 1.0),
-        Spot::Edge { ends: [a, b], at } => {
+        SurfacePoint::Vertex(v) => of(v, 1.0),
+        SurfacePoint::Edge { ends: [a, b], at } => {
             let (first, second) = (of(a, 1.0 - at), of(b, at));
             [0, 1, 2].map(|k| first[k] + second[k])
         }
-        Spot::Face { weights, .. } => weights,
+        SurfacePoint::Face { weights, .. } => weights,
     }
 }
 

@@ -141,15 +141,3 @@ fn points(value: &Located<Value>, findings: &mut Findings) -> Vec<Located<[f64; 
         _ => numbers(value, "a point", findings).into_iter().collect(),
     }
 }
-
-/// A name that a piece, an edge, a dart or a line may have.
-pub(super) fn name(written: &Located<String>, findings: &mut Findings) -> Option<Located<String>> {
-    let name = &written.value;
-    let letters = name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
-    let taken = ["L", "R", "mirror", "all"].contains(&name.as_str()) || name.parse::<f64>().is_ok();
-    if name.is_empty() || !letters || taken {
-        findings.error(written.at, Problem::BadName(name.clone()));
-        return None;
-    }
-    Some(written.clone())
-}

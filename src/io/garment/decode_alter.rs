@@ -106,7 +106,7 @@ fn of_kind(kind: &'static str, fields: &mut Fields, by: Length, findings: &mut F
 }
 
 fn named(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<String>> {
-    text(value, what, findings).and_then(|t| super::decode::name(&t, findings))
+    text(value, what, findings).and_then(|t| super::fields::name(&t, findings))
 }
 
 fn take(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Option<AlterationFile> {

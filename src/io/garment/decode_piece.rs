@@ -1,11 +1,11 @@
 //! Pieces of a garment file.
 
-use super::decode::name;
+use super::fields::name;
 use super::fields::{
     Fields, entries, integer_within, items, length, number, numbers, quantity, share, text, width, word, wrong,
 };
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
+    AllowanceFile, AllowanceWidth, Corner, CutKind, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
     OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
 };
 
@@ -53,14 +53,14 @@ pub(super) fn piece(key: &Located<String>, value: &Located<Value>, findings: &mu
     Some(piece)
 }
 
-fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Located<Cut>> {
+fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Located<CutKind>> {
     word(value, "cut", "one, pair, fold EDGE or a number up to 100", findings, |w| {
         let mut words = w.split_whitespace();
         let cut = match (words.next()?, words.next()) {
-            ("one" | "1", None) => Cut::One,
-            ("pair", None) => Cut::Pair,
-            ("fold", Some(edge)) => Cut::Fold(edge.to_owned()),
-            (n, None) => Cut::Count(n.parse().ok().filter(|n| (1..=MOST_COPIES).contains(n))?),
+            ("one" | "1", None) => CutKind::One,
+            ("pair", None) => CutKind::Pair,
+            ("fold", Some(edge)) => CutKind::Fold(edge.to_owned()),
+            (n, None) => CutKind::Count(n.parse().ok().filter(|n| (1..=MOST_COPIES).contains(n))?),
             _ => return None,
         };
         words.next().is_none().then_some(cut)

@@ -1,6 +1,6 @@
 //! Seams of a garment file.
 
-use super::decode::name;
+use super::fields::name;
 use super::fields::{Fields, distance, exclusive, integer, items, length, positive, text, width, word, wrong};
 use crate::pattern::{Findings, Located, OpenFile, SeamFile, Value};
 

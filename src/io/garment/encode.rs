@@ -3,23 +3,12 @@
 use serde_yaml::{Mapping, Value as Yaml};
 
 use super::decode_test::LEVEL;
-use super::layout;
+use super::layout::{self, EncodeError};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile,
+    AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, CutKind, DartFile, DartShape, GarmentFile, LineFile,
     Located, OpenFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, SizeFile, StationFile,
     TestEntry, TestFile, Value,
 };
-
-/// A garment file that YAML cannot hold, and why.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the garment cannot be written as YAML: {0}")]
-pub struct EncodeError(String);
-
-impl EncodeError {
-    pub(super) fn new(reason: &dyn std::fmt::Display) -> Self {
-        Self(reason.to_string())
-    }
-}
 
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
 ///
@@ -60,7 +49,7 @@ pub fn alteration_line(own: &AlterationFile) -> Result<String, EncodeError> {
 }
 
 fn document(file: &GarmentFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("garment", file.version.value);
     map.text("name", &file.name);
     map.nodes(&file.about);
@@ -68,7 +57,7 @@ fn document(file: &GarmentFile) -> Yaml {
     if file.body_measures.is_empty() {
         map.text("body", &file.body);
     } else {
-        let mut body = Map::default();
+        let mut body = YamlMap::default();
         body.text("like", &file.body);
         file.body_measures.iter().for_each(|(name, q)| body.quantity(&name.value, &Some(*q)));
         map.put("body", body);
@@ -88,9 +77,9 @@ fn document(file: &GarmentFile) -> Yaml {
 
 /// A YAML mapping under construction; absent things leave no key.
 #[derive(Default)]
-struct Map(Mapping);
+struct YamlMap(Mapping);
 
-impl Map {
+impl YamlMap {
     fn put(&mut self, key: &str, value: impl Into<Yaml>) {
         self.0.insert(key.into(), value.into());
     }
@@ -130,18 +119,18 @@ impl Map {
     }
 }
 
-impl From<Map> for Yaml {
-    fn from(map: Map) -> Self {
+impl From<YamlMap> for Yaml {
+    fn from(map: YamlMap) -> Self {
         Self::Mapping(map.0)
     }
 }
 
-fn nodes(entries: &[(Located<String>, Located<Value>)]) -> Map {
+fn nodes(entries: &[(Located<String>, Located<Value>)]) -> YamlMap {
     named(entries, |(k, v)| (k, node(&v.value)))
 }
 
-fn named<T>(items: &[T], entry: impl Fn(&T) -> (&Located<String>, Yaml)) -> Map {
-    let mut map = Map::default();
+fn named<T>(items: &[T], entry: impl Fn(&T) -> (&Located<String>, Yaml)) -> YamlMap {
+    let mut map = YamlMap::default();
     for item in items {
         let (key, value) = entry(item);
         map.put(&key.value, value);
@@ -181,7 +170,7 @@ fn allowance(of: AllowanceWidth) -> Yaml {
 }
 
 fn piece(piece: &PieceFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.text("like", &piece.like);
     map.text("fabric", &piece.fabric);
     map.some("cut", piece.cut.as_ref().map(|c| cut(&c.value)));
@@ -197,7 +186,7 @@ fn piece(piece: &PieceFile) -> Yaml {
     map.some("grain", piece.grain.as_ref().map(|g| Yaml::Sequence(g.value.iter().map(|p| numbers(p)).collect())));
     map.some("place", piece.place.as_ref().map(|p| place(&p.value)));
     if let Some(outline) = &piece.outline {
-        let mut edges = Map::default();
+        let mut edges = YamlMap::default();
         let [x, y] = outline.start.value;
         edges.put("start", format!("{x} {y}"));
         edges.0.extend(named(&outline.edges, |(k, v)| (k, v.value.as_str().into())).0);
@@ -222,12 +211,12 @@ fn piece(piece: &PieceFile) -> Yaml {
     map.into()
 }
 
-fn cut(cut: &Cut) -> Yaml {
+fn cut(cut: &CutKind) -> Yaml {
     match cut {
-        Cut::One => "one".into(),
-        Cut::Pair => "pair".into(),
-        Cut::Fold(edge) => format!("fold {edge}").into(),
-        Cut::Count(n) => (*n as u64).into(),
+        CutKind::One => "one".into(),
+        CutKind::Pair => "pair".into(),
+        CutKind::Fold(edge) => format!("fold {edge}").into(),
+        CutKind::Count(n) => (*n as u64).into(),
     }
 }
 
@@ -235,7 +224,7 @@ fn place(place: &PlaceFile) -> Yaml {
     match place {
         PlaceFile::Words(words) => words.as_str().into(),
         PlaceFile::At { at, turn } => {
-            let mut map = Map::default();
+            let mut map = YamlMap::default();
             map.put("at", numbers(at));
             map.some("turn", turn.as_ref().map(|t| numbers(t)));
             map.into()
@@ -244,7 +233,7 @@ fn place(place: &PlaceFile) -> Yaml {
 }
 
 fn dart(dart: &DartFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.text("name", &dart.name);
     map.put("intake", quantity(dart.intake.value));
     match &dart.shape {
@@ -264,7 +253,7 @@ fn dart(dart: &DartFile) -> Yaml {
 }
 
 fn pleat(pleat: &PleatFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("edge", pleat.edge.value.as_str());
     map.list("at", &pleat.at, |q| quantity(q.value));
     map.put("depth", quantity(pleat.depth.value));
@@ -280,7 +269,7 @@ fn pleat(pleat: &PleatFile) -> Yaml {
 }
 
 fn line(line: &LineFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("path", line.path.value.as_str());
     map.number("fold", &line.fold);
     map.text("kind", &line.kind);
@@ -297,7 +286,7 @@ fn chain(edges: &[Located<String>]) -> Yaml {
 }
 
 fn seam(seam: &SeamFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("sew", chain(&seam.sew));
     map.put("to", chain(&seam.to));
     map.quantity("ease", &seam.ease);
@@ -320,7 +309,7 @@ fn seam(seam: &SeamFile) -> Yaml {
 }
 
 fn open(open: &OpenFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("from", open.from.value.as_str());
     map.put("length", quantity(open.length.value));
     map.text("closure", &open.closure);
@@ -328,7 +317,7 @@ fn open(open: &OpenFile) -> Yaml {
 }
 
 fn closure(closure: &ClosureFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     map.put("kind", closure.kind.value.as_str());
     map.text("piece", &closure.on);
     map.list("at", &closure.at, |p| numbers(&p.value));
@@ -345,7 +334,7 @@ fn size(size: &SizeFile) -> Yaml {
 }
 
 fn alteration(of: &AlterationFile) -> Yaml {
-    let mut map = Map::default();
+    let mut map = YamlMap::default();
     match of {
         AlterationFile::Take { seam, at, out } => {
             map.put(if *out { "let_out" } else { "take_in" }, seam.value.as_str());
@@ -404,8 +393,8 @@ fn test_entry(entry: &TestEntry) -> Yaml {
     map.into()
 }
 
-fn test(test: &TestFile) -> Map {
-    let mut map = Map::default();
+fn test(test: &TestFile) -> YamlMap {
+    let mut map = YamlMap::default();
     match test {
         TestFile::Seam(name, limit) => {
             map.put("seam", name.value.as_str());

@@ -2,8 +2,18 @@
 
 use serde_yaml::Value as Yaml;
 
-use super::encode::EncodeError;
 use crate::input::quoted;
+
+/// A garment file that YAML cannot hold, and why.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the garment cannot be written as YAML: {0}")]
+pub struct EncodeError(String);
+
+impl EncodeError {
+    fn new(reason: &dyn std::fmt::Display) -> Self {
+        Self(reason.to_string())
+    }
+}
 
 /// Longest line that a list or mapping is put on.
 const WIDTH: usize = 110;

@@ -32,7 +32,8 @@ use crate::pattern::{
 pub use append::{Appended, appended};
 pub use change::{Changed, EdgeChange, change, change_text};
 pub use edit::{Edit, EditError, KeyPath, edited, keys, scalar, scalars};
-pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
+pub use encode::{alteration_line, seam_line, write, write_with_offers};
+pub use layout::EncodeError;
 pub use ranges::{Drawn, Ranges};
 pub use reform::{Reformed, reform};
 pub use refuse::Refused;
@@ -53,12 +54,12 @@ pub struct Loaded {
     pub file: GarmentFile,
     /// Warnings: statements that its author may not have meant as they were read.
     pub warnings: Vec<Diagnostic>,
-    source: Source,
+    source: FileText,
 }
 
 /// A file's name and text, to show where in it a mistake is that is found later.
 #[derive(Clone, Debug)]
-struct Source {
+struct FileText {
     shown: String,
     text: String,
 }
@@ -106,7 +107,7 @@ pub struct Examined {
     /// Mistakes of alterations that are no part of the file.
     beside: Vec<Diagnostic>,
     garment: Option<Garment>,
-    source: Source,
+    source: FileText,
 }
 
 impl Examined {
@@ -136,18 +137,10 @@ pub fn read(path: &Path) -> Result<Loaded, Refused> {
     examine(path).finish()
 }
 
-/// Reads and checks a size of a garment file. `None` is the garment as it is drawn and altered.
-///
-/// # Errors
-/// As [`read`], and where there is no such size.
-pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, Refused> {
-    examine_size(path, size).finish()
-}
-
 /// Reads and checks a variant of a garment file.
 ///
 /// # Errors
-/// As [`read_size`], and where an alteration cannot be carried out.
+/// As [`read`], where there is no such size, and where an alteration cannot be carried out.
 pub fn read_variant(path: &Path, variant: Variant) -> Result<Loaded, Refused> {
     examine_variant(path, variant).finish()
 }
@@ -162,15 +155,10 @@ pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused>
 
 /// Reads and checks a garment file, and leaves it open whether it can be used.
 pub fn examine(path: &Path) -> Examined {
-    examine_size(path, None)
+    examine_variant(path, Variant::default())
 }
 
-/// As [`examine`], of a size of the garment, whose name then ends with the size.
-pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
-    examine_variant(path, Variant { size, ..Variant::default() })
-}
-
-/// As [`examine_size`], with further alterations.
+/// As [`examine`], of a variant of the garment. The name ends with the size.
 pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
     let shown = path.display().to_string();
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
@@ -180,7 +168,7 @@ pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
             let (_, shown) = of_size(&name, &shown, variant.size);
             let mut findings = Findings::new(&shown, "");
             findings.error(Spot::default(), problem);
-            let source = Source { shown, text: String::new() };
+            let source = FileText { shown, text: String::new() };
             Examined { file: None, findings, beside: Vec::new(), garment: None, source }
         }
     }
@@ -215,7 +203,7 @@ fn examined(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
         None => (None, Vec::new()),
     };
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
-    let source = Source { shown: shown.to_owned(), text: text.to_owned() };
+    let source = FileText { shown: shown.to_owned(), text: text.to_owned() };
     Examined { file, findings, beside, garment, source }
 }
 

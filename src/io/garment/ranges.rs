@@ -17,13 +17,13 @@ const STEPS: f64 = 1e3;
 /// stand wherever a number does.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranges {
-    measures: Vec<(String, Range)>,
-    alter: Vec<Node>,
+    measures: Vec<(String, NumberRange)>,
+    alter: Vec<AlterationNode>,
 }
 
 /// From one number to another, in one unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Range {
+struct NumberRange {
     from: f64,
     to: f64,
     unit: Option<Unit>,
@@ -31,14 +31,14 @@ struct Range {
 
 /// A value of an alteration.
 #[derive(Clone, Debug, PartialEq)]
-enum Node {
+enum AlterationNode {
     Text(String),
-    Range(Range),
-    List(Vec<Node>),
-    Map(Vec<(String, Node)>),
+    Range(NumberRange),
+    List(Vec<AlterationNode>),
+    Map(Vec<(String, AlterationNode)>),
 }
 
-/// What was drawn for one variant, as lists of jobs have it.
+/// The values drawn for one variant, as lists of jobs have them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// Measures of the wearer, mm. Empty if the file has none.
@@ -68,7 +68,7 @@ impl Ranges {
 
     /// Whether there is no range, so that every variant is the same.
     pub fn is_empty(&self) -> bool {
-        self.measures.is_empty() && !self.alter.iter().any(Node::has_range)
+        self.measures.is_empty() && !self.alter.iter().any(AlterationNode::has_range)
     }
 
     /// Whether measures are drawn.
@@ -103,7 +103,7 @@ fn rounded(number: f64) -> f64 {
     (STEPS * number).round() / STEPS
 }
 
-impl Range {
+impl NumberRange {
     /// The number at `share` of the way, never outside.
     fn at(&self, share: f64) -> f64 {
         rounded(self.from + share * (self.to - self.from)).clamp(self.from, self.to)
@@ -124,12 +124,12 @@ impl Range {
     }
 }
 
-impl Node {
+impl AlterationNode {
     fn read(value: &Located<Value>, findings: &mut Findings) -> Option<Self> {
         match &value.value {
             Value::Text(text) => Some(Self::Text(text.clone())),
             Value::List(list) => list.iter().map(|v| Self::read(v, findings)).collect::<Option<_>>().map(Self::List),
-            Value::Map(entries) if is_range(entries) => Range::read(value, "a range", findings).map(Self::Range),
+            Value::Map(entries) if is_range(entries) => NumberRange::read(value, "a range", findings).map(Self::Range),
             Value::Map(entries) => {
                 let read = |(key, value): &(Located<String>, Located<Value>)| {
                     Some((key.value.clone(), Self::read(value, findings)?))
@@ -176,13 +176,13 @@ fn file(tree: &Located<Value>, findings: &mut Findings) -> Option<Ranges> {
     let mut out = Ranges::default();
     if let Some(measures) = fields.take("measures") {
         for (name, value) in entries(measures, "measures", findings) {
-            let range = Range::read(value, &name.value, findings)?;
+            let range = NumberRange::read(value, &name.value, findings)?;
             out.measures.push((name.value.clone(), range));
         }
     }
     if let Some(alter) = fields.take("alter") {
         for value in items(alter) {
-            out.alter.push(Node::read(value, findings)?);
+            out.alter.push(AlterationNode::read(value, findings)?);
         }
     }
     fields.finish(findings);

@@ -21,10 +21,10 @@ struct Open {
     anchor: usize,
     /// Values in it so far, itself included.
     size: usize,
-    kind: Kind,
+    kind: Collection,
 }
 
-enum Kind {
+enum Collection {
     List(Vec<Located<Value>>),
     Map {
         entries: Vec<(Located<String>, Located<Value>)>,
@@ -105,9 +105,9 @@ impl Builder<'_> {
                 let text = if null { String::new() } else { text.into_owned() };
                 self.add(Located::new(Value::Text(text), at), anchor, 1)
             }
-            Event::SequenceStart(anchor, _) => self.start(at, anchor, Kind::List(Vec::new())),
+            Event::SequenceStart(anchor, _) => self.start(at, anchor, Collection::List(Vec::new())),
             Event::MappingStart(anchor, _) => {
-                self.start(at, anchor, Kind::Map { entries: Vec::new(), key: None, lines: HashMap::new() })
+                self.start(at, anchor, Collection::Map { entries: Vec::new(), key: None, lines: HashMap::new() })
             }
             Event::SequenceEnd | Event::MappingEnd => self.end(),
             Event::Alias(anchor) => {
@@ -120,7 +120,7 @@ impl Builder<'_> {
         }
     }
 
-    fn start(&mut self, at: Spot, anchor: usize, kind: Kind) -> Outcome {
+    fn start(&mut self, at: Spot, anchor: usize, kind: Collection) -> Outcome {
         if self.open.len() >= DEEPEST {
             return Err((at, Problem::TooDeep(DEEPEST)));
         }
@@ -132,14 +132,14 @@ impl Builder<'_> {
     }
 
     fn expects_key(&self) -> bool {
-        matches!(self.open.last(), Some(Open { kind: Kind::Map { key: None, .. }, .. }))
+        matches!(self.open.last(), Some(Open { kind: Collection::Map { key: None, .. }, .. }))
     }
 
     fn end(&mut self) -> Outcome {
         let Some(done) = self.open.pop() else { return Ok(()) };
         let value = match done.kind {
-            Kind::List(items) => Value::List(items),
-            Kind::Map { entries, .. } => Value::Map(entries),
+            Collection::List(items) => Value::List(items),
+            Collection::Map { entries, .. } => Value::Map(entries),
         };
         self.add(Located::new(value, done.at), done.anchor, done.size)
     }
@@ -160,8 +160,8 @@ impl Builder<'_> {
         };
         parent.size += size;
         match &mut parent.kind {
-            Kind::List(items) => items.push(value),
-            Kind::Map { entries, key, lines } => match key.take() {
+            Collection::List(items) => items.push(value),
+            Collection::Map { entries, key, lines } => match key.take() {
                 None => {
                     let Value::Text(text) = value.value else { return Err((at, Problem::KeyNotText)) };
                     if text.chars().count() > LONGEST_KEY {

@@ -6,7 +6,7 @@ use super::{Refused, tree};
 use crate::alter::carry_out;
 use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Value};
 
-/// What messages call alterations that stand in no file.
+/// The name, in messages, of alterations that stand in no file.
 const SHOWN: &str = "alteration";
 
 /// A garment other than its file draws it.
@@ -19,7 +19,12 @@ pub struct Variant<'a> {
     pub alter: &'a [String],
 }
 
-impl Variant<'_> {
+impl<'a> Variant<'a> {
+    /// A size of the garment without further alterations. `None` is the garment as it is drawn and altered.
+    pub fn of_size(size: Option<&'a str>) -> Self {
+        Self { size, ..Self::default() }
+    }
+
     /// Carries out the further alterations.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use crate::geometry::{Path, Vec2, Vec3};
 
 /// A panel as drawn. Millimetres.
 #[derive(Debug)]
-pub(super) struct Drawing {
+pub(super) struct PanelDrawing {
     /// Clockwise on screen. Edge `k` is the panel's edge `count − 1 − k`, walked the other way.
     pub(super) edges: Vec<PanelEdge>,
     /// The rigid start: where the drawing's origin is, and the turn (x, y, z, fixed axes, this order) that takes
@@ -22,7 +22,7 @@ pub(super) struct Drawing {
 /// Space directions whose vertical part is below this have no up and down.
 const LEVEL: f64 = 0.2;
 
-impl Drawing {
+impl PanelDrawing {
     /// Draws a panel; one round an arm with the arm's axis running down, all others upright as they hang.
     ///
     /// `None` when the outline encloses no area or cannot be measured.

@@ -1,15 +1,15 @@
 //! Names for edges, from what they are sewn to and where they hang.
 
-use super::drawing::Drawing;
-use super::role::{Facing, Role};
+use super::drawing::PanelDrawing;
+use super::role::{PanelFacing, PanelRole};
 use super::spec::PanelEdge;
 use crate::geometry::Vec3;
 
 /// The partner of an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Partner {
-    pub(super) role: Role,
-    pub(super) facing: Option<Facing>,
+    pub(super) role: PanelRole,
+    pub(super) facing: Option<PanelFacing>,
     /// The panel itself: a dart.
     pub(super) own: bool,
     /// Whether it is on the other side of the body.
@@ -18,9 +18,9 @@ pub(super) struct Partner {
 
 /// A piece whose edges get names.
 pub(super) struct Subject<'a> {
-    pub(super) drawing: &'a Drawing,
-    pub(super) role: Role,
-    pub(super) facing: Option<Facing>,
+    pub(super) drawing: &'a PanelDrawing,
+    pub(super) role: PanelRole,
+    pub(super) facing: Option<PanelFacing>,
     /// Whether its mirror image is cut as well.
     pub(super) pair: bool,
     /// Per edge of the drawing.
@@ -86,14 +86,14 @@ impl Subject<'_> {
             return "neck";
         }
         let beside: Vec<&str> = self.neighbours(k).into_iter().flatten().collect();
-        if self.role == Role::Bodice && ["shoulder", "side"].iter().all(|name| beside.contains(name)) {
+        if self.role == PanelRole::Bodice && ["shoulder", "side"].iter().all(|name| beside.contains(name)) {
             return "armhole";
         }
         match (self.role, self.upright(k), self.high(k)) {
-            (Role::Hood, true, _) => "face",
-            (Role::Collar, ..) => "outer",
-            (Role::Bodice, _, true) => "neck",
-            (Role::Trousers, false, true) => "waist",
+            (PanelRole::Hood, true, _) => "face",
+            (PanelRole::Collar, ..) => "outer",
+            (PanelRole::Bodice, _, true) => "neck",
+            (PanelRole::Trousers, false, true) => "waist",
             (_, true, _) => "opening",
             (_, false, true) => "top",
             (_, false, false) => "hem",
@@ -109,27 +109,29 @@ impl Subject<'_> {
     fn sewn(&self, k: usize, partner: Partner) -> &'static str {
         let same_facing = self.facing.is_some() && self.facing == partner.facing;
         match (self.role, partner.role) {
-            (Role::Sleeve, Role::Sleeve) | (Role::Cuff, Role::Cuff) => {
+            (PanelRole::Sleeve, PanelRole::Sleeve) | (PanelRole::Cuff, PanelRole::Cuff) => {
                 if self.middle(k).y > self.drawing.space(self.drawing.middle()).y { "over" } else { "under" }
             }
-            (Role::Trousers | Role::TrouserCuff, Role::Trousers | Role::TrouserCuff) => self.leg(k, partner),
+            (PanelRole::Trousers | PanelRole::TrouserCuff, PanelRole::Trousers | PanelRole::TrouserCuff) => {
+                self.leg(k, partner)
+            }
             (own, other) if own == other && same_facing => "center",
-            (Role::Collar | Role::Hood, Role::Collar | Role::Hood) => self.collar(k),
+            (PanelRole::Collar | PanelRole::Hood, PanelRole::Collar | PanelRole::Hood) => self.collar(k),
             (own, other) if own == other => {
-                if own == Role::Bodice && !self.upright(k) {
+                if own == PanelRole::Bodice && !self.upright(k) {
                     "shoulder"
                 } else {
                     "side"
                 }
             }
-            (Role::Bodice, Role::Sleeve) => "armhole",
-            (Role::Sleeve, Role::Bodice) => "cap",
-            (Role::Sleeve, Role::Cuff) => "wrist",
-            (Role::Cuff, Role::Sleeve) => "top",
-            (Role::Collar | Role::Hood, _) | (_, Role::Collar | Role::Hood) => "neck",
-            (Role::Waistband, _) if self.high(k) => "top",
-            (Role::Waistband, _) => "bottom",
-            (_, Role::Waistband) => "waist",
+            (PanelRole::Bodice, PanelRole::Sleeve) => "armhole",
+            (PanelRole::Sleeve, PanelRole::Bodice) => "cap",
+            (PanelRole::Sleeve, PanelRole::Cuff) => "wrist",
+            (PanelRole::Cuff, PanelRole::Sleeve) => "top",
+            (PanelRole::Collar | PanelRole::Hood, _) | (_, PanelRole::Collar | PanelRole::Hood) => "neck",
+            (PanelRole::Waistband, _) if self.high(k) => "top",
+            (PanelRole::Waistband, _) => "bottom",
+            (_, PanelRole::Waistband) => "waist",
             _ if self.upright(k) => "join",
             _ if self.high(k) => "top",
             _ => "bottom",
@@ -150,8 +152,8 @@ impl Subject<'_> {
 
     fn collar(&self, k: usize) -> &'static str {
         match (self.role, self.upright(k)) {
-            (Role::Hood, true) => "back",
-            (Role::Hood, false) => "crown",
+            (PanelRole::Hood, true) => "back",
+            (PanelRole::Hood, false) => "crown",
             _ => "end",
         }
     }

@@ -1,6 +1,6 @@
 //! Why a specification cannot be imported.
 
-/// What is wrong with a GarmentCode specification. Panels and edges are called as in the file; edges and stitches count
+/// A fault of a GarmentCode specification. Panels and edges are called as in the file; edges and stitches count
 /// from 0 as there.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ImportError {

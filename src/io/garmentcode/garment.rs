@@ -3,15 +3,15 @@
 use super::drawing::number;
 use super::edges::{Partner, Subject};
 use super::error::ImportError;
-use super::pieces::{Part, Piece, part, pieces};
-use super::role::{Facing, Role, unique};
-use super::seams::{Joined, Place, Table};
+use super::pieces::{FilePiece, PanelFacts, part, pieces};
+use super::role::{PanelFacing, PanelRole, unique};
+use super::seams::{Joined, StitchedEdge, StitchedEdges};
 use super::short::KEPT;
 use super::spec::{PanelEdge, Specification};
 use crate::geometry::Path;
 use crate::pattern::{
-    Cut, DEFAULT_CLOTH, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, PlaceWord, Quantity, SeamFile, Side,
-    Spot, TestEntry, TestFile, Unit, Value,
+    CutKind, DEFAULT_CLOTH, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, PlaceWord, Quantity, SeamFile,
+    Side, Spot, TestEntry, TestFile, Unit, Value,
 };
 
 /// The garment file of a specification.
@@ -19,12 +19,12 @@ pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> R
     let parts = spec.panels.iter().enumerate().map(|(i, panel)| {
         part(spec, i).ok_or_else(|| ImportError::Panel { panel: panel.name.clone(), reason: "encloses no area".into() })
     });
-    let parts = parts.collect::<Result<Vec<Part>, ImportError>>()?;
+    let parts = parts.collect::<Result<Vec<PanelFacts>, ImportError>>()?;
     let pieces = pieces(spec, &parts);
     let lengths: Vec<Vec<f64>> =
         pieces.iter().map(|p| parts[p.panel].drawing.edges.iter().map(PanelEdge::length).collect()).collect();
     let sides: Vec<Option<Side>> = parts.iter().map(|p| p.side).collect();
-    let table = Table { spec, pieces: &pieces, sides: &sides, lengths: &lengths };
+    let table = StitchedEdges { spec, pieces: &pieces, sides: &sides, lengths: &lengths };
     let names: Vec<Vec<String>> = pieces.iter().map(|p| edge_names(&table, &parts, p)).collect();
     let writer = Writer { table: &table, parts: &parts, names: &names };
     let seams = table.seams();
@@ -64,7 +64,7 @@ fn millimetres(number: f64, unit: Option<Unit>) -> Quantity {
 }
 
 /// Names of the edges of a piece's drawing.
-fn edge_names(table: &Table, parts: &[Part], piece: &Piece) -> Vec<String> {
+fn edge_names(table: &StitchedEdges, parts: &[PanelFacts], piece: &FilePiece) -> Vec<String> {
     let own = &parts[piece.panel];
     let count = own.drawing.edges.len();
     let mut partners: Vec<Option<Partner>> = vec![None; count];
@@ -108,19 +108,19 @@ fn outline(edges: &[PanelEdge], names: &[String]) -> OutlineFile {
 const UPRIGHT: f64 = 0.5;
 
 struct Writer<'a> {
-    table: &'a Table<'a>,
-    parts: &'a [Part],
+    table: &'a StitchedEdges<'a>,
+    parts: &'a [PanelFacts],
     names: &'a [Vec<String>],
 }
 
 impl Writer<'_> {
-    fn piece(&self, piece: &Piece, names: &[String]) -> PieceFile {
+    fn piece(&self, piece: &FilePiece, names: &[String]) -> PieceFile {
         let part = &self.parts[piece.panel];
         let drawn = part.side.filter(|_| piece.twin.is_some());
         let middle = part.drawing.middle();
         let round = |x: f64| x.round();
         PieceFile {
-            cut: piece.twin.map(|_| here(Cut::Pair)),
+            cut: piece.twin.map(|_| here(CutKind::Pair)),
             drawn: drawn.map(here),
             layer: Some(piece.layer).filter(|&l| l != 0).map(here),
             grain: Some(here([[round(middle.x), round(middle.y - GRAIN)], [round(middle.x), round(middle.y + GRAIN)]])),
@@ -131,7 +131,7 @@ impl Writer<'_> {
     }
 
     /// In words where there are words for it.
-    fn place(&self, piece: &Piece) -> PlaceFile {
+    fn place(&self, piece: &FilePiece) -> PlaceFile {
         let part = &self.parts[piece.panel];
         // A panel at the side of a skirt looks neither forward nor back, and goes round the body with the others.
         let beside = part.role.round_trunk() && part.drawing.normal.y.abs() < UPRIGHT;
@@ -140,7 +140,7 @@ impl Writer<'_> {
                 Side::Left => PlaceWord::Left,
                 Side::Right => PlaceWord::Right,
             });
-            let words = [side, Some(body), part.facing.map(Facing::word)].into_iter().flatten();
+            let words = [side, Some(body), part.facing.map(PanelFacing::word)].into_iter().flatten();
             words.map(PlaceWord::name).collect::<Vec<&str>>().join(" ")
         });
         words.map_or_else(
@@ -153,9 +153,9 @@ impl Writer<'_> {
         )
     }
 
-    fn reference(&self, place: Place, both_sides: bool) -> Located<String> {
+    fn reference(&self, place: StitchedEdge, both_sides: bool) -> Located<String> {
         let piece = &self.table.pieces[place.piece].name;
-        let side = place.side.filter(|_| !both_sides).map_or(String::new(), |s| format!(".{}", s.letter()));
+        let side = place.side.filter(|_| !both_sides).map_or("", Side::suffix);
         here(format!("{piece}{side}.{}", self.names[place.piece][place.edge]))
     }
 
@@ -185,7 +185,7 @@ impl Writer<'_> {
             (la, lb) = (lb, la);
         }
         let own_mirror = seam.both_sides && a.iter().zip(b).all(|(a, b)| a.piece == b.piece && a.edge == b.edge);
-        let chain = |places: &[Place]| places.iter().map(|&p| self.reference(p, seam.both_sides)).collect();
+        let chain = |places: &[StitchedEdge]| places.iter().map(|&p| self.reference(p, seam.both_sides)).collect();
         let to = if own_mirror { vec![here("mirror".to_owned())] } else { chain(b) };
         SeamFile {
             ease: (unequal && !gathered).then(|| here(millimetres((10.0 * (lb - la)).round() / 10.0, None))),
@@ -195,7 +195,7 @@ impl Writer<'_> {
         }
     }
 
-    fn edge_name(&self, place: Place) -> &str {
+    fn edge_name(&self, place: StitchedEdge) -> &str {
         let name = &self.names[place.piece][place.edge];
         name.rsplit_once('_').map_or(name, |(base, _)| base)
     }
@@ -204,15 +204,15 @@ impl Writer<'_> {
     fn seam_name(&self, seam: &Joined) -> String {
         let [a, b] = [seam.a[0], seam.b[0]];
         let [one, other] = [a, b].map(|p| self.edge_name(p));
-        let role = |p: Place| self.parts[self.table.pieces[p.piece].panel].role;
-        let sleeve = |p: Place| matches!(role(p), Role::Sleeve | Role::Cuff);
+        let role = |p: StitchedEdge| self.parts[self.table.pieces[p.piece].panel].role;
+        let sleeve = |p: StitchedEdge| matches!(role(p), PanelRole::Sleeve | PanelRole::Cuff);
         match (one, other) {
             ("armhole", _) | (_, "armhole") => "armhole".to_owned(),
             ("waist", _) | (_, "waist") => "waist".to_owned(),
             ("wrist", _) | (_, "wrist") => "wrist".to_owned(),
             ("ankle", _) | (_, "ankle") => "ankle".to_owned(),
             ("over" | "under", _) if sleeve(a) => {
-                let piece = if role(a) == Role::Cuff { "cuff" } else { "sleeve" };
+                let piece = if role(a) == PanelRole::Cuff { "cuff" } else { "sleeve" };
                 format!("{piece}_{one}")
             }
             (one, other) if one == other => one.to_owned(),
@@ -223,9 +223,9 @@ impl Writer<'_> {
     /// With the piece it is on and the side of the wearer.
     fn longer_name(&self, seam: &Joined, name: &str) -> String {
         let ends = [seam.a[0], seam.b[0]];
-        let part = |p: Place| &self.parts[self.table.pieces[p.piece].panel];
+        let part = |p: StitchedEdge| &self.parts[self.table.pieces[p.piece].panel];
         // A waistband or a sleeve is sewn to several pieces; what it is sewn to tells the seams apart.
-        let shared = |p: &Place| matches!(part(*p).role, Role::Waistband | Role::Sleeve);
+        let shared = |p: &StitchedEdge| matches!(part(*p).role, PanelRole::Waistband | PanelRole::Sleeve);
         let own = ends.iter().find(|p| !shared(p)).unwrap_or(&ends[0]);
         let piece = self.table.pieces[own.piece].name.as_str();
         let without_facing = ["front", "back"].iter().find_map(|f| piece.strip_suffix(f)).unwrap_or(piece);
@@ -237,7 +237,7 @@ impl Writer<'_> {
     }
 
     /// On which side of its piece an edge is.
-    fn side_of(&self, place: Place) -> Option<Side> {
+    fn side_of(&self, place: StitchedEdge) -> Option<Side> {
         let drawing = &self.parts[self.table.pieces[place.piece].panel].drawing;
         let path = drawing.edges[place.edge].path()?;
         let x = drawing.space(path.point(0.5 * path.length())).x;

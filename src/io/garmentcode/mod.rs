@@ -10,8 +10,8 @@
 //! the floor that the body stands on.
 //!
 //! Every edge of a panel is an edge of its piece with the same length; every stitch is in one seam. Only edges too
-//! short to be meshed are left out, and stitches between two of them. What the format does not know (grain, fabric,
-//! allowance) is filled in: the grain runs down the drawing, the cloth is a cotton poplin.
+//! short to be meshed are left out, and stitches between two of them. Grain, fabric and allowance,
+//! which the format does not know, are filled in: the grain runs down the drawing, the cloth is a cotton poplin.
 
 mod drawing;
 mod edges;

@@ -2,7 +2,7 @@
 //! program drew first.
 
 use super::drawing::double_area;
-use super::spec::{Curve, Panel, PanelEdge, Stitch};
+use super::spec::{Curve, Panel, PanelEdge, PanelStitch};
 use crate::geometry::{Vec2, Vec3};
 
 /// A panel nearer the middle of the body than this (millimetres) is neither before nor behind it.
@@ -12,7 +12,7 @@ const FACING: f64 = 0.5;
 
 /// Walks the outlines of panels the other way that stand before the body and look back, or behind it and look forward.
 /// A panel that lies on the wrong side of another is meant to.
-pub(super) fn turn_outward(panels: &mut [Panel], stitches: &mut [Stitch]) {
+pub(super) fn turn_outward(panels: &mut [Panel], stitches: &mut [PanelStitch]) {
     let mut turned = vec![false; panels.len()];
     for (k, panel) in panels.iter().enumerate() {
         let over = stitches.iter().any(|s| s.right_wrong && s.ends.iter().any(|end| end.0 == k));

@@ -1,13 +1,13 @@
 //! The role of a panel, from its name and how it hangs.
 
-use super::drawing::Drawing;
+use super::drawing::PanelDrawing;
 use super::spec::{Panel, Specification};
 use crate::geometry::range_of;
 use crate::pattern::{PlaceWord, Side};
 
 /// The part of a garment a panel is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum PanelRole {
     Bodice,
     Sleeve,
     Cuff,
@@ -20,24 +20,24 @@ pub(super) enum Role {
 }
 
 /// Parts of panel names, in the order in which they count.
-const WORDS: [(&str, Role); 14] = [
-    ("cuff", Role::Cuff),
-    ("sleeve", Role::Sleeve),
-    ("hood", Role::Hood),
-    ("collar", Role::Collar),
-    ("lapel", Role::Collar),
-    ("turtle", Role::Collar),
-    ("wb", Role::Waistband),
-    ("waistband", Role::Waistband),
-    ("belt", Role::Waistband),
-    ("pant", Role::Trousers),
-    ("skirt", Role::Skirt),
-    ("torso", Role::Bodice),
-    ("bodice", Role::Bodice),
-    ("shirt", Role::Bodice),
+const WORDS: [(&str, PanelRole); 14] = [
+    ("cuff", PanelRole::Cuff),
+    ("sleeve", PanelRole::Sleeve),
+    ("hood", PanelRole::Hood),
+    ("collar", PanelRole::Collar),
+    ("lapel", PanelRole::Collar),
+    ("turtle", PanelRole::Collar),
+    ("wb", PanelRole::Waistband),
+    ("waistband", PanelRole::Waistband),
+    ("belt", PanelRole::Waistband),
+    ("pant", PanelRole::Trousers),
+    ("skirt", PanelRole::Skirt),
+    ("torso", PanelRole::Bodice),
+    ("bodice", PanelRole::Bodice),
+    ("shirt", PanelRole::Bodice),
 ];
 
-impl Role {
+impl PanelRole {
     pub(super) fn of(spec: &Specification, panel: usize) -> Self {
         let own = &spec.panels[panel];
         let name = own.name.to_lowercase();
@@ -100,16 +100,16 @@ fn goes_between_legs(spec: &Specification, panel: usize) -> bool {
 
 /// Front or back of the wearer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Facing {
+pub(super) enum PanelFacing {
     Front,
     Back,
 }
 
-impl Facing {
+impl PanelFacing {
     /// A right side that looks this far forward or back (cosine) says where its panel is.
     const CLEAR: f64 = 0.5;
 
-    pub(super) fn of(drawing: &Drawing) -> Option<Self> {
+    pub(super) fn of(drawing: &PanelDrawing) -> Option<Self> {
         if drawing.normal.z > Self::CLEAR {
             return Some(Self::Front);
         }
@@ -128,8 +128,8 @@ impl Facing {
 const MIDDLE: f64 = 10.0;
 
 /// Which side of the body a panel is on: all of it, or, for what goes round one limb however wide, its middle.
-pub(super) fn side(drawing: &Drawing, role: Role) -> Option<Side> {
-    if role.round_arm() || matches!(role, Role::Trousers | Role::TrouserCuff) {
+pub(super) fn side(drawing: &PanelDrawing, role: PanelRole) -> Option<Side> {
+    if role.round_arm() || matches!(role, PanelRole::Trousers | PanelRole::TrouserCuff) {
         let x = drawing.space(drawing.middle()).x;
         return (x.abs() > MIDDLE).then_some(if x > 0.0 { Side::Left } else { Side::Right });
     }

@@ -1,12 +1,12 @@
 //! Stitches as the seams of a garment file: mirrored ones written once, those that go on into each other joined.
 
-use super::pieces::Piece;
+use super::pieces::FilePiece;
 use super::spec::Specification;
 use crate::pattern::Side;
 
 /// An edge of a piece, on one of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct StitchedEdge {
     pub(super) piece: usize,
     /// Of the drawing.
     pub(super) edge: usize,
@@ -18,17 +18,17 @@ pub(super) struct Place {
 /// as well where the faces are the same).
 #[derive(Clone, Debug)]
 pub(super) struct Joined {
-    pub(super) a: Vec<Place>,
-    pub(super) b: Vec<Place>,
+    pub(super) a: Vec<StitchedEdge>,
+    pub(super) b: Vec<StitchedEdge>,
     pub(super) face_same: bool,
     /// Stands for its mirror image too.
     pub(super) both_sides: bool,
 }
 
 /// Finds the edges that stitches join.
-pub(super) struct Table<'a> {
+pub(super) struct StitchedEdges<'a> {
     pub(super) spec: &'a Specification,
-    pub(super) pieces: &'a [Piece],
+    pub(super) pieces: &'a [FilePiece],
     /// Which side a panel is on, by its index.
     pub(super) sides: &'a [Option<Side>],
     /// Length of every edge of every piece's drawing.
@@ -38,19 +38,19 @@ pub(super) struct Table<'a> {
 /// Two ratios of lengths are alike within this: seams of one gather are one seam.
 const ALIKE: f64 = 0.004;
 
-impl Table<'_> {
+impl StitchedEdges<'_> {
     /// Where edge `k` of a panel is in the garment file.
-    pub(super) fn place(&self, panel: usize, k: usize) -> Option<Place> {
+    pub(super) fn place(&self, panel: usize, k: usize) -> Option<StitchedEdge> {
         let count = self.spec.panels[panel].edges.len();
         self.pieces.iter().enumerate().find_map(|(piece, p)| {
             let edge = p.edge(panel, k, count)?;
-            Some(Place { piece, edge, side: p.twin.and(self.sides[panel]) })
+            Some(StitchedEdge { piece, edge, side: p.twin.and(self.sides[panel]) })
         })
     }
 
     /// All seams, in the order of the stitches.
     pub(super) fn seams(&self) -> Vec<Joined> {
-        let mut single: Vec<([Place; 2], bool)> = Vec::new();
+        let mut single: Vec<([StitchedEdge; 2], bool)> = Vec::new();
         for stitch in &self.spec.stitches {
             let [a, b] = stitch.ends.map(|(panel, k)| self.place(panel, k));
             if let (Some(a), Some(b)) = (a, b) {
@@ -123,25 +123,25 @@ impl Table<'_> {
     }
 
     /// Whether the place is on the piece of a pair that is not drawn, whose outline runs the other way.
-    fn turned(&self, place: &Place) -> bool {
+    fn turned(&self, place: &StitchedEdge) -> bool {
         place.side.is_some() && place.side != self.sides[self.pieces[place.piece].panel]
     }
 
     /// The next edge of the drawing, clockwise.
-    fn after(&self, place: Place) -> Place {
-        Place { edge: (place.edge + 1) % self.lengths[place.piece].len(), ..place }
+    fn after(&self, place: StitchedEdge) -> StitchedEdge {
+        StitchedEdge { edge: (place.edge + 1) % self.lengths[place.piece].len(), ..place }
     }
 
     /// Length of a chain, millimetres.
-    pub(super) fn length(&self, chain: &[Place]) -> f64 {
+    pub(super) fn length(&self, chain: &[StitchedEdge]) -> f64 {
         chain.iter().map(|p| self.lengths[p.piece][p.edge]).sum()
     }
 }
 
-fn mirrored(place: Place) -> Place {
-    Place { side: place.side.map(Side::other), ..place }
+fn mirrored(place: StitchedEdge) -> StitchedEdge {
+    StitchedEdge { side: place.side.map(Side::other), ..place }
 }
 
-fn is(ends: [Place; 2], other: [Place; 2]) -> bool {
+fn is(ends: [StitchedEdge; 2], other: [StitchedEdge; 2]) -> bool {
     ends == other || ends == [other[1], other[0]]
 }

@@ -1,6 +1,6 @@
 //! Edges without length to speak of, as the sides of a slit of no depth: left out, their ends drawn together.
 
-use super::spec::{Panel, PanelEdge, Stitch};
+use super::spec::{Panel, PanelEdge, PanelStitch};
 use crate::geometry::Vec2;
 use crate::pattern::SHORTEST_EDGE;
 
@@ -11,10 +11,10 @@ const SHORTEST: f64 = 1e3 * SHORTEST_EDGE + KEPT;
 
 /// Leaves out short edges that are free or sewn to short ones, with their stitches. One that is sewn to a longer edge
 /// stays: without it that edge would have no partner, and only who drew it can say what was meant.
-pub(super) fn leave_out_short(panels: &mut [Panel], stitches: &mut Vec<Stitch>) {
+pub(super) fn leave_out_short(panels: &mut [Panel], stitches: &mut Vec<PanelStitch>) {
     let mut left_out: Vec<Vec<bool>> =
         panels.iter().map(|panel| panel.edges.iter().map(|e| e.length() < SHORTEST).collect()).collect();
-    for Stitch { ends: [a, b], .. } in stitches.iter() {
+    for PanelStitch { ends: [a, b], .. } in stitches.iter() {
         let both = left_out[a.0][a.1] && left_out[b.0][b.1];
         (left_out[a.0][a.1], left_out[b.0][b.1]) = (both, both);
     }

@@ -21,7 +21,7 @@ use crate::geometry::{Vec2, Vec3};
 pub(super) struct Specification {
     /// In the order of the file, or of `panel_order`.
     pub(super) panels: Vec<Panel>,
-    pub(super) stitches: Vec<Stitch>,
+    pub(super) stitches: Vec<PanelStitch>,
 }
 
 /// A flat piece of cloth, in its own y-up frame.
@@ -65,7 +65,7 @@ pub(super) enum Curve {
 
 /// Two edges sewn together.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stitch {
+pub(super) struct PanelStitch {
     /// Panel and edge, each an index.
     pub(super) ends: [(usize, usize); 2],
     /// The edges run the same way: the right side of one lies on the wrong side of the other.
@@ -73,7 +73,7 @@ pub(super) struct Stitch {
 }
 
 #[derive(Deserialize)]
-struct File {
+struct SpecificationFile {
     pattern: Option<Pattern>,
     #[serde(default)]
     properties: Properties,
@@ -142,7 +142,7 @@ const LARGEST: f64 = 1e5;
 impl Specification {
     /// Reads and checks the JSON text.
     pub(super) fn parse(text: &str) -> Result<Self, ImportError> {
-        let file: File = serde_json::from_str(text).map_err(|e| ImportError::Json(e.to_string()))?;
+        let file: SpecificationFile = serde_json::from_str(text).map_err(|e| ImportError::Json(e.to_string()))?;
         let pattern = file.pattern.ok_or(ImportError::NoPattern)?;
         let per_metre = file.properties.units_in_meter.unwrap_or(UNITS_IN_METRE);
         if !(per_metre.is_finite() && per_metre > 0.0) {
@@ -153,7 +153,7 @@ impl Specification {
             Some("absolute") => true,
             Some(other) => return Err(ImportError::Coordinates(other.to_owned())),
         };
-        let reader = Reader { scale: 1000.0 / per_metre, absolute };
+        let reader = SpecificationReader { scale: 1000.0 / per_metre, absolute };
         let mut panels = ordered(pattern.panels, &pattern.panel_order)
             .into_iter()
             .map(|(name, value)| reader.panel(name, value))
@@ -175,13 +175,13 @@ fn ordered(mut panels: Map<String, Value>, order: &[String]) -> Vec<(String, Val
     out
 }
 
-struct Reader {
+struct SpecificationReader {
     /// Millimetres per unit of the file.
     scale: f64,
     absolute: bool,
 }
 
-impl Reader {
+impl SpecificationReader {
     fn panel(&self, name: String, value: Value) -> Result<Panel, ImportError> {
         let wrong = |reason: String| ImportError::Panel { panel: name.clone(), reason };
         let text: PanelText = serde_json::from_value(value).map_err(|e| wrong(e.to_string()))?;
@@ -287,7 +287,7 @@ fn numbers(params: &[Value]) -> Vec<f64> {
     params.iter().filter_map(|v| v.as_f64().or_else(|| v.as_bool().map(|b| f64::from(u8::from(b))))).collect()
 }
 
-fn stitches(text: &[Vec<Value>], panels: &[Panel]) -> Result<Vec<Stitch>, ImportError> {
+fn stitches(text: &[Vec<Value>], panels: &[Panel]) -> Result<Vec<PanelStitch>, ImportError> {
     let index: HashMap<&str, usize> = panels.iter().enumerate().map(|(i, p)| (p.name.as_str(), i)).collect();
     let mut sewn: HashMap<(usize, usize), usize> = HashMap::new();
     let mut out = Vec::with_capacity(text.len());
@@ -312,7 +312,7 @@ fn stitches(text: &[Vec<Value>], panels: &[Panel]) -> Result<Vec<Stitch>, Import
             }
             *slot = (panel, end.edge);
         }
-        out.push(Stitch { ends: joined, right_wrong });
+        out.push(PanelStitch { ends: joined, right_wrong });
     }
     Ok(out)
 }

@@ -3,8 +3,8 @@
 use pdf_writer::Content;
 
 use super::Page;
-use super::draw::Pen;
-use super::pages::{LETTERS, Plan, field_name};
+use super::draw::PagePen;
+use super::pages::{FieldPlan, LETTERS, field_name};
 use crate::cutting::{INCH_SQUARE, LETTER_WIDTH, Paper, TEST_SQUARE};
 use crate::geometry::Vec2;
 
@@ -22,11 +22,11 @@ const LINE: f64 = 1.7;
 const GAP: f64 = 0.010;
 
 /// The title, how to print and to join, the squares, the pieces, and the plan of the pages.
-pub(super) fn cover(title: &str, papers: &[Paper], plan: &Plan, page: Page) -> Content {
-    let mut pen = Pen::new(page.height, Vec2::repeat(MARGIN));
+pub(super) fn cover(title: &str, papers: &[Paper], plan: &FieldPlan, page: Page) -> Content {
+    let mut pen = PagePen::new(page.height, Vec2::repeat(MARGIN));
     let room = Vec2::new(page.width, page.height) - Vec2::repeat(2.0 * MARGIN);
     let mut line = TITLE;
-    let mut write = |pen: &mut Pen, words: &str, height: f64| {
+    let mut write = |pen: &mut PagePen, words: &str, height: f64| {
         pen.text(words, Vec2::new(0.0, line), height, false, false);
         line += LINE * height;
     };
@@ -48,7 +48,7 @@ pub(super) fn cover(title: &str, papers: &[Paper], plan: &Plan, page: Page) -> C
 }
 
 /// How many are cut of what, as far as there is room between two heights.
-fn list(pen: &mut Pen, papers: &[Paper], [from, to]: [f64; 2]) {
+fn list(pen: &mut PagePen, papers: &[Paper], [from, to]: [f64; 2]) {
     let rows = ((to - from) / (LINE * LETTERS)) as usize;
     for (k, paper) in papers.iter().enumerate().take(rows) {
         let words = format!("{}: {}, {}", paper.name, paper.count, paper.fabric);
@@ -68,7 +68,7 @@ pub(super) fn sewing(steps: &[String], page: Page) -> Vec<Content> {
 }
 
 fn steps_page(lines: &[String], page: Page) -> Content {
-    let mut pen = Pen::new(page.height, Vec2::repeat(MARGIN));
+    let mut pen = PagePen::new(page.height, Vec2::repeat(MARGIN));
     pen.text("Order of sewing", Vec2::new(0.0, TITLE), TITLE, false, false);
     for (k, line) in lines.iter().enumerate() {
         let at = Vec2::new(0.0, 2.0 * LINE * TITLE + k as f64 * LINE * LETTERS);
@@ -93,7 +93,7 @@ fn wrapped(text: &str, most: usize) -> Vec<String> {
 }
 
 /// The plan of the pages with the pieces on it, small.
-fn map(pen: &mut Pen, plan: &Plan, corner: Vec2, room: Vec2) {
+fn map(pen: &mut PagePen, plan: &FieldPlan, corner: Vec2, room: Vec2) {
     let whole = Vec2::new(plan.columns as f64, plan.rows as f64).component_mul(&plan.frame);
     let scale = (room.component_div(&whole)).min();
     let at = |p: Vec2| corner + p * scale;

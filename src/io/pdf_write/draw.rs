@@ -4,7 +4,8 @@ use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
 use crate::cutting::{
-    CLOTH_LETTERS, Cloth, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow, materials,
+    CLOTH_LETTERS, ClothLength, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
+    materials,
 };
 use crate::geometry::{Path, Vec2};
 
@@ -37,7 +38,7 @@ pub(super) fn layer_name(layer: usize) -> String {
 }
 
 /// A page being drawn on; positions are metres from the upper left corner of what it shows, y down.
-pub(super) struct Pen {
+pub(super) struct PagePen {
     content: Content,
     /// Of the page, metres.
     height: f64,
@@ -45,7 +46,7 @@ pub(super) struct Pen {
     origin: Vec2,
 }
 
-impl Pen {
+impl PagePen {
     pub(super) fn new(height: f64, origin: Vec2) -> Self {
         let mut content = Content::new();
         content.set_line_cap(pdf_writer::types::LineCapStyle::RoundCap);
@@ -57,7 +58,7 @@ impl Pen {
         self.content
     }
 
-    /// Nothing is drawn outside of this any more, until [`Pen::unclip`].
+    /// Nothing is drawn outside of this any more, until [`PagePen::unclip`].
     pub(super) fn clip(&mut self, low: Vec2, high: Vec2) {
         self.content.save_state();
         let (a, b) = (self.place(low), self.place(high));
@@ -153,7 +154,7 @@ impl Pen {
     }
 
     /// A stretch of cloth: its edges, its fold, and what it is.
-    fn cloth(&mut self, cloth: &Cloth) {
+    fn cloth(&mut self, cloth: &ClothLength) {
         let (low, high) = (cloth.corner, cloth.corner + cloth.size);
         self.closed(&[low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)], true);
         let [height, above] = CLOTH_LETTERS;
@@ -215,7 +216,7 @@ impl Pen {
     }
 }
 
-/// Every line that [`Pen::paper`] draws, curves as chords, and the boxes of the letters.
+/// Every line that [`PagePen::paper`] draws, curves as chords, and the boxes of the letters.
 pub(super) fn lines(paper: &Paper) -> Vec<[Vec2; 2]> {
     let mut lines = Vec::new();
     let mut add = |points: &[Vec2]| lines.extend(points.windows(2).map(|w| [w[0], w[1]]));

@@ -3,7 +3,7 @@
 use pdf_writer::Content;
 
 use super::cover::{cover, sewing};
-use super::draw::{Pen, lines};
+use super::draw::{PagePen, lines};
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
 use crate::cutting::{Layout, Paper, Sheet, materials};
 use crate::geometry::Vec2;
@@ -29,7 +29,7 @@ pub fn one_page(title: &str, sheet: &Sheet) -> Result<Vec<u8>, PdfError> {
     if sheet.size.max() * POINTS > LONGEST_SIDE {
         return Err(PdfError::TooLarge { width: sheet.size.x * 1e3, height: sheet.size.y * 1e3 });
     }
-    let mut pen = Pen::new(sheet.size.y, Vec2::zeros());
+    let mut pen = PagePen::new(sheet.size.y, Vec2::zeros());
     pen.sheet(sheet, [Vec2::zeros(), sheet.size]);
     Ok(document(title, [sheet.size.x, sheet.size.y], vec![pen.finish()], &materials(&sheet.papers)))
 }
@@ -53,7 +53,7 @@ pub fn tiled(title: &str, papers: &[Paper], page: Page) -> Result<Vec<u8>, PdfEr
 /// As [`tiled`].
 pub fn booklet(title: &str, papers: &[Paper], steps: &[String], page: Page) -> Result<Vec<u8>, PdfError> {
     let frame = Vec2::new(page.width, page.height) - Vec2::repeat(2.0 * MARGIN + OVERLAP);
-    let plan = Plan::new(papers, frame)?.with_clear_labels();
+    let plan = FieldPlan::new(papers, frame)?.with_clear_labels();
     let mut pages = vec![cover(title, papers, &plan, page)];
     pages.extend(sewing(steps, page));
     for row in 0..plan.rows {
@@ -65,7 +65,7 @@ pub fn booklet(title: &str, papers: &[Paper], steps: &[String], page: Page) -> R
 }
 
 /// A sheet cut into fields.
-pub(super) struct Plan {
+pub(super) struct FieldPlan {
     pub(super) sheet: Sheet,
     pub(super) frame: Vec2,
     pub(super) columns: usize,
@@ -73,7 +73,7 @@ pub(super) struct Plan {
     used: Vec<bool>,
 }
 
-impl Plan {
+impl FieldPlan {
     /// The width, in pages, that takes the fewest pages; the narrower of two that take as many.
     fn new(papers: &[Paper], frame: Vec2) -> Result<Self, PdfError> {
         let widest = papers.iter().map(|p| p.extent()[1].x - p.extent()[0].x).fold(0.0, f64::max);
@@ -129,8 +129,8 @@ impl Plan {
         Vec2::new(column as f64, row as f64).component_mul(&self.frame)
     }
 
-    /// Of every field whether a line or a letter is within its frame. What is only in the strip beyond the frame is on
-    /// the neighbour.
+    /// Whether a line or a letter is within the frame, for every field. The strip beyond the frame does not count: it
+    /// shows a part of the neighbour.
     fn drawn_on(&self) -> Vec<bool> {
         let mut used = vec![false; self.rows * self.columns];
         // The fields that coordinates reach, at least the last one: a sheet ends on its last frame.
@@ -204,10 +204,10 @@ pub(super) fn field_name(row: usize, column: usize) -> String {
     format!("{letters}{}", column + 1)
 }
 
-fn tile(plan: &Plan, row: usize, column: usize, page: Page) -> Content {
+fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> Content {
     let inset = Vec2::repeat(MARGIN + OVERLAP / 2.0);
     let corner = plan.corner(row, column);
-    let mut pen = Pen::new(page.height, inset - corner);
+    let mut pen = PagePen::new(page.height, inset - corner);
     let strip = Vec2::repeat(OVERLAP / 2.0);
     pen.clip(corner - strip, corner + plan.frame + strip);
     pen.sheet(&plan.sheet, [corner - strip, corner + plan.frame + strip]);
@@ -220,7 +220,7 @@ fn tile(plan: &Plan, row: usize, column: usize, page: Page) -> Content {
 }
 
 /// The frame, and half diamonds where a neighbour is joined, named alike on both pages.
-fn marks(pen: &mut Pen, plan: &Plan, row: usize, column: usize) {
+fn marks(pen: &mut PagePen, plan: &FieldPlan, row: usize, column: usize) {
     let size = plan.frame;
     let corners = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
     pen.closed(&corners.map(|(x, y)| Vec2::new(x, y)), true);
@@ -294,7 +294,7 @@ mod tests {
             grain: [middle, middle - Vec2::new(0.0, 0.01)],
             marks: Vec::new(),
             drills: Vec::new(),
-            words: crate::cutting::Words::default(),
+            words: crate::cutting::PieceWords::default(),
             texts: Vec::new(),
             narrowed: Vec::new(),
         }
@@ -304,7 +304,7 @@ mod tests {
     fn every_page_with_a_line_is_printed_and_no_blank_one() {
         // Frames of 10 cm; the side from the last corner to the first runs down the left.
         let square = [[0.0, 0.0], [0.45, 0.0], [0.45, 0.45], [0.0, 0.45]];
-        let plan = Plan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 5);
+        let plan = FieldPlan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 5);
         let used: Vec<String> = (0..plan.rows)
             .map(|row| (0..plan.columns).map(|c| if plan.is_used(row, c) { '#' } else { '.' }).collect())
             .collect();
@@ -315,7 +315,7 @@ mod tests {
     fn what_is_only_in_the_strip_beside_a_page_takes_none() {
         // Three millimetres past the second frame would be in the strip of a third page.
         let square = [[0.0, 0.0], [0.197, 0.0], [0.197, 0.09], [0.0, 0.09]];
-        let plan = Plan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 3);
+        let plan = FieldPlan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 3);
         assert_eq!(plan.pages(), 2);
     }
 }

@@ -9,7 +9,7 @@ pub(super) struct Cursor<'a> {
 
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum NumberKind {
     I8,
     U8,
     I16,
@@ -20,7 +20,7 @@ pub(super) enum Kind {
     F64,
 }
 
-impl Kind {
+impl NumberKind {
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -37,16 +37,16 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next number; `None` where the bytes end.
-    pub(super) fn number(&mut self, kind: Kind) -> Option<f64> {
+    pub(super) fn number(&mut self, kind: NumberKind) -> Option<f64> {
         Some(match kind {
-            Kind::I8 => f64::from(i8::from_le_bytes(self.take()?)),
-            Kind::U8 => f64::from(u8::from_le_bytes(self.take()?)),
-            Kind::I16 => f64::from(i16::from_le_bytes(self.take()?)),
-            Kind::U16 => f64::from(u16::from_le_bytes(self.take()?)),
-            Kind::I32 => f64::from(i32::from_le_bytes(self.take()?)),
-            Kind::U32 => f64::from(u32::from_le_bytes(self.take()?)),
-            Kind::F32 => f64::from(f32::from_le_bytes(self.take()?)),
-            Kind::F64 => f64::from_le_bytes(self.take()?),
+            NumberKind::I8 => f64::from(i8::from_le_bytes(self.take()?)),
+            NumberKind::U8 => f64::from(u8::from_le_bytes(self.take()?)),
+            NumberKind::I16 => f64::from(i16::from_le_bytes(self.take()?)),
+            NumberKind::U16 => f64::from(u16::from_le_bytes(self.take()?)),
+            NumberKind::I32 => f64::from(i32::from_le_bytes(self.take()?)),
+            NumberKind::U32 => f64::from(u32::from_le_bytes(self.take()?)),
+            NumberKind::F32 => f64::from(f32::from_le_bytes(self.take()?)),
+            NumberKind::F64 => f64::from_le_bytes(self.take()?),
         })
     }
 

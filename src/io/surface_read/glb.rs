@@ -4,7 +4,7 @@
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion};
 use serde_json::Value;
 
-use super::bytes::{Cursor, Kind};
+use super::bytes::{Cursor, NumberKind};
 use crate::geometry::Vec3;
 use crate::io::obj_read::ObjFaces;
 
@@ -18,7 +18,7 @@ const FAN: u64 = 6;
 const DEEPEST: usize = 100;
 
 /// The file's two parts.
-struct File<'a> {
+struct GlbParts<'a> {
     json: Value,
     bytes: &'a [u8],
 }
@@ -44,11 +44,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<ObjFaces, String> {
     Ok(out)
 }
 
-fn chunks(bytes: &[u8]) -> Result<File<'_>, String> {
+fn chunks(bytes: &[u8]) -> Result<GlbParts<'_>, String> {
     /// Of the file's header, and of a chunk's.
     const HEADERS: [usize; 2] = [12, 8];
     const VERSION: f64 = 2.0;
-    let number = |at: usize| bytes.get(at..at + 4).and_then(|b| Cursor::new(b, false).number(Kind::U32));
+    let number = |at: usize| bytes.get(at..at + 4).and_then(|b| Cursor::new(b, false).number(NumberKind::U32));
     if number(4) != Some(VERSION) {
         return Err("only version 2 is read".into());
     }
@@ -61,7 +61,7 @@ fn chunks(bytes: &[u8]) -> Result<File<'_>, String> {
     let json = chunk(HEADERS[0], b"JSON").ok_or("the first part is not JSON, or the file ends too early")?;
     let rest = HEADERS[0] + HEADERS[1] + json.len();
     let json = serde_json::from_slice(json).map_err(|e| e.to_string())?;
-    Ok(File { json, bytes: chunk(rest, b"BIN\0").unwrap_or(&[]) })
+    Ok(GlbParts { json, bytes: chunk(rest, b"BIN\0").unwrap_or(&[]) })
 }
 
 /// Numbers of an array, as many as it should have.
@@ -82,7 +82,7 @@ fn placed(node: &Value) -> Matrix4<f64> {
     Matrix4::new_translation(&shift) * turn * Matrix4::new_nonuniform_scaling(&scale)
 }
 
-impl File<'_> {
+impl GlbParts<'_> {
     fn node(&self, index: &Value, within: &Matrix4<f64>, depth: usize, out: &mut ObjFaces) -> Result<(), String> {
         if depth > DEEPEST {
             return Err("nodes lie within each other without end".into());
@@ -148,12 +148,12 @@ impl File<'_> {
             return Err("sparse accessors are not read; export it without morph targets".into());
         }
         let kind = match accessor["componentType"].as_u64() {
-            Some(5120) => Kind::I8,
-            Some(5121) => Kind::U8,
-            Some(5122) => Kind::I16,
-            Some(5123) => Kind::U16,
-            Some(5125) => Kind::U32,
-            Some(5126) => Kind::F32,
+            Some(5120) => NumberKind::I8,
+            Some(5121) => NumberKind::U8,
+            Some(5122) => NumberKind::I16,
+            Some(5123) => NumberKind::U16,
+            Some(5125) => NumberKind::U32,
+            Some(5126) => NumberKind::F32,
             _ => return Err("an accessor is damaged".into()),
         };
         let each = match accessor["type"].as_str() {

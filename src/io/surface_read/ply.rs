@@ -1,7 +1,7 @@
 //! PLY (Turk 1994), in text and in both orders of bytes: `vertex` with x, y, z and `face` with a list of corners. Other
 //! elements and properties are passed over. No crate is used: the header says how everything else is to be read.
 
-use super::bytes::{Cursor, Kind};
+use super::bytes::{Cursor, NumberKind};
 use crate::geometry::Vec3;
 use crate::io::obj_read::ObjFaces;
 
@@ -13,11 +13,11 @@ pub(super) fn is_ply(bytes: &[u8]) -> bool {
 /// A property of an element: one number, or a list with a count before it.
 struct Property {
     name: String,
-    count: Option<Kind>,
-    kind: Kind,
+    count: Option<NumberKind>,
+    kind: NumberKind,
 }
 
-struct Element {
+struct PlyElement {
     name: String,
     count: usize,
     properties: Vec<Property>,
@@ -25,7 +25,7 @@ struct Element {
 
 /// How the numbers are written.
 #[derive(Clone, Copy)]
-enum Form {
+enum PlyForm {
     Text,
     Bytes { big: bool },
 }
@@ -37,7 +37,7 @@ enum Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    fn next(&mut self, kind: Kind) -> Result<f64, String> {
+    fn next(&mut self, kind: NumberKind) -> Result<f64, String> {
         match self {
             Self::Text(words) => {
                 let word = words.next().ok_or("the file ends too early")?;
@@ -55,10 +55,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<ObjFaces, String> {
     let line_end = bytes[end..].iter().position(|b| *b == b'\n').ok_or("nothing follows the header")?;
     let (form, elements) = header(&String::from_utf8_lossy(&bytes[..end]))?;
     let body = &bytes[end + line_end + 1..];
-    let text = String::from_utf8_lossy(if matches!(form, Form::Text) { body } else { &[] });
+    let text = String::from_utf8_lossy(if matches!(form, PlyForm::Text) { body } else { &[] });
     let mut numbers = match form {
-        Form::Text => Numbers::Text(text.split_whitespace()),
-        Form::Bytes { big } => Numbers::Bytes(Cursor::new(body, big)),
+        PlyForm::Text => Numbers::Text(text.split_whitespace()),
+        PlyForm::Bytes { big } => Numbers::Bytes(Cursor::new(body, big)),
     };
     let mut out = ObjFaces { groups: vec![String::new()], ..ObjFaces::default() };
     for element in &elements {
@@ -76,7 +76,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<ObjFaces, String> {
 }
 
 /// Reads one vertex, one face, or what is passed over.
-fn one(element: &Element, numbers: &mut Numbers<'_>, out: &mut ObjFaces) -> Result<(), String> {
+fn one(element: &PlyElement, numbers: &mut Numbers<'_>, out: &mut ObjFaces) -> Result<(), String> {
     let mut place = Vec3::zeros();
     for property in &element.properties {
         let count = match property.count {
@@ -103,18 +103,18 @@ fn one(element: &Element, numbers: &mut Numbers<'_>, out: &mut ObjFaces) -> Resu
     Ok(())
 }
 
-fn header(text: &str) -> Result<(Form, Vec<Element>), String> {
+fn header(text: &str) -> Result<(PlyForm, Vec<PlyElement>), String> {
     let mut form = None;
-    let mut elements: Vec<Element> = Vec::new();
+    let mut elements: Vec<PlyElement> = Vec::new();
     for line in text.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
-            ["format", "ascii", _] => form = Some(Form::Text),
-            ["format", "binary_little_endian", _] => form = Some(Form::Bytes { big: false }),
-            ["format", "binary_big_endian", _] => form = Some(Form::Bytes { big: true }),
+            ["format", "ascii", _] => form = Some(PlyForm::Text),
+            ["format", "binary_little_endian", _] => form = Some(PlyForm::Bytes { big: false }),
+            ["format", "binary_big_endian", _] => form = Some(PlyForm::Bytes { big: true }),
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| format!("'{line}' has no count"))?;
-                elements.push(Element { name: name.into(), count, properties: Vec::new() });
+                elements.push(PlyElement { name: name.into(), count, properties: Vec::new() });
             }
             ["property", ref kinds @ .., name] => {
                 let element = elements.last_mut().ok_or("a property stands before every element")?;
@@ -134,16 +134,16 @@ fn header(text: &str) -> Result<(Form, Vec<Element>), String> {
     ))
 }
 
-fn known(name: &str) -> Result<Kind, String> {
+fn known(name: &str) -> Result<NumberKind, String> {
     Ok(match name {
-        "char" | "int8" => Kind::I8,
-        "uchar" | "uint8" => Kind::U8,
-        "short" | "int16" => Kind::I16,
-        "ushort" | "uint16" => Kind::U16,
-        "int" | "int32" => Kind::I32,
-        "uint" | "uint32" => Kind::U32,
-        "float" | "float32" => Kind::F32,
-        "double" | "float64" => Kind::F64,
+        "char" | "int8" => NumberKind::I8,
+        "uchar" | "uint8" => NumberKind::U8,
+        "short" | "int16" => NumberKind::I16,
+        "ushort" | "uint16" => NumberKind::U16,
+        "int" | "int32" => NumberKind::I32,
+        "uint" | "uint32" => NumberKind::U32,
+        "float" | "float32" => NumberKind::F32,
+        "double" | "float64" => NumberKind::F64,
         other => return Err(format!("'{other}' is no type of number")),
     })
 }

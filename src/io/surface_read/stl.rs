@@ -1,6 +1,6 @@
 //! STL: triangles, each with three corners of its own. No crate is used: the format is a list of numbers.
 
-use super::bytes::{Cursor, Kind};
+use super::bytes::{Cursor, NumberKind};
 use crate::geometry::Vec3;
 use crate::io::obj_read::ObjFaces;
 
@@ -17,7 +17,7 @@ pub(super) fn is_stl(bytes: &[u8]) -> bool {
 }
 
 fn is_binary(bytes: &[u8]) -> bool {
-    let count = bytes.get(HEADER..START).and_then(|b| Cursor::new(b, false).number(Kind::U32));
+    let count = bytes.get(HEADER..START).and_then(|b| Cursor::new(b, false).number(NumberKind::U32));
     count.is_some_and(|count| bytes.len() as f64 == START as f64 + count * TRIANGLE as f64)
 }
 
@@ -48,7 +48,7 @@ fn binary(bytes: &[u8]) -> Vec<Vec3> {
     let mut out = Vec::new();
     for triangle in bytes[START..].chunks_exact(TRIANGLE) {
         let mut numbers = Cursor::new(&triangle[NORMAL..], false);
-        let mut next = || numbers.number(Kind::F32).unwrap_or(f64::NAN);
+        let mut next = || numbers.number(NumberKind::F32).unwrap_or(f64::NAN);
         out.extend([0; 3].map(|_| Vec3::new(next(), next(), next())));
     }
     out

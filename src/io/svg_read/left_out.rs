@@ -18,7 +18,7 @@ const KINDS: [What; 6] = [What::Image, What::Clone, What::Text, What::Unsized, W
 const DRAWN_OTHERWISE: [&str; 3] = ["foreignObject", "video", "mesh"];
 
 impl What {
-    /// What an element of this name is that is left out; `taken` says whether it was found to be a line of the pattern.
+    /// The kind of an element of this name that is left out. `taken`: whether it was found to be a line of the pattern.
     pub(super) fn of(name: &str, taken: bool) -> Option<Self> {
         match name {
             "image" => Some(Self::Image),
@@ -48,11 +48,11 @@ impl What {
 
 /// How many there were of each kind, and the line of the first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LeftOut {
+pub(super) struct LeftOutElements {
     counts: [(usize, u32); KINDS.len()],
 }
 
-impl LeftOut {
+impl LeftOutElements {
     pub(super) fn add(&mut self, what: What, line: u32) {
         for (kind, (count, first)) in KINDS.iter().zip(&mut self.counts) {
             if *kind == what {

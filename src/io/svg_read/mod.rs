@@ -1,8 +1,8 @@
 //! SVG in: drawings of Inkscape, FreeSewing, Seamly2D and toile itself; the only user of roxmltree.
 //!
-//! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). What a line is
-//! follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
-//! where it has one, and else from what lies in what.
+//! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). The role of a
+//! line follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and
+//! markers) where it has one, and else from what lies in what.
 
 mod arrow;
 mod left_out;
@@ -17,11 +17,11 @@ use std::path::Path as FilePath;
 use roxmltree::{Document, Node};
 
 use self::arrow::shaft;
-use self::left_out::{LeftOut, What};
+use self::left_out::{LeftOutElements, What};
 use self::program::unit_of;
 use self::shapes::commands;
 use self::style::Styles;
-use self::viewport::{Frame, Sheet, inner, sheet};
+use self::viewport::{ElementFrame, Viewport, inner, sheet};
 use self::xml::parsed;
 use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes};
 use crate::geometry::{Path, Vec2, parse_transform};
@@ -138,10 +138,10 @@ pub fn read_svg_text_as(text: &str, options: &SvgOptions) -> Result<Drawing, Svg
     let unit = unit_of(&document);
     let sheet = sheet(root, unit.metres, options.unit);
     notes.extend(unit.note(sheet.is_measured || options.unit.is_some()));
-    let left_out = LeftOut::default();
+    let left_out = LeftOutElements::default();
     let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
     let (sides, materials, corners) = (Vec::new(), Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, sides, materials, corners, left_out };
+    let mut reader = SvgReader { document: &document, strokes, remarks, texts, sides, materials, corners, left_out };
     reader.walk(root, &sheet)?;
     reader.take_size(options.size.as_deref())?;
     let mut drawing = pieces(&reader.strokes, &reader.remarks, sheet.metres);
@@ -166,7 +166,7 @@ pub fn read_svg_text_as(text: &str, options: &SvgOptions) -> Result<Drawing, Svg
 /// The properties that an element inherits.
 #[derive(Clone)]
 struct Scope {
-    frame: Frame,
+    frame: ElementFrame,
     /// Size of the drawing it stands in, its user units.
     viewport: Vec2,
     group: Option<String>,
@@ -177,7 +177,7 @@ struct Scope {
     classes: String,
 }
 
-struct Reader<'a, 'i> {
+struct SvgReader<'a, 'i> {
     document: &'a Document<'i>,
     strokes: Vec<Stroke>,
     remarks: Vec<Remark>,
@@ -189,10 +189,10 @@ struct Reader<'a, 'i> {
     materials: Vec<(String, Material)>,
     /// How the allowances of groups' edges end at corners, as toile itself writes it.
     corners: Vec<(String, (String, Corner))>,
-    left_out: LeftOut,
+    left_out: LeftOutElements,
 }
 
-impl Reader<'_, '_> {
+impl SvgReader<'_, '_> {
     /// Leaves the strokes of one size, where there are several.
     fn take_size(&mut self, wanted: Option<&str>) -> Result<(), SvgError> {
         let Some(wanted) = wanted else { return Ok(()) };
@@ -205,7 +205,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn walk(&mut self, root: Node, sheet: &Sheet) -> Result<(), SvgError> {
+    fn walk(&mut self, root: Node, sheet: &Viewport) -> Result<(), SvgError> {
         let styles = Styles::of(self.document);
         let (frame, viewport) = (sheet.frame, sheet.size);
         let scope = Scope { frame, viewport, group: None, layer: None, size: None, classes: String::new() };
@@ -327,7 +327,7 @@ fn material(node: Node) -> Option<Material> {
 }
 
 /// A text's words and its beginning, which may stand at its first line.
-fn remark(node: Node, frame: Frame) -> Option<Remark> {
+fn remark(node: Node, frame: ElementFrame) -> Option<Remark> {
     let number = |key: &str| {
         let own = node.descendants().find_map(|n| n.attribute(key))?;
         own.split([' ', ',']).next()?.parse::<f64>().ok().filter(|x| x.is_finite())
@@ -337,7 +337,7 @@ fn remark(node: Node, frame: Frame) -> Option<Remark> {
     (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text: shown(&words.join(" "), REMARK) })
 }
 
-/// The one child of a `switch` that is shown: the first that asks for nothing. What it holds in another program's words
+/// The one child of a `switch` that is shown: the first that asks for nothing. Contents in another program's words
 /// (Illustrator wraps its drawings so) could not be read, and there is no language to choose by.
 fn alternative<'a, 'i>(switch: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
     let asks = |node: &Node| ["requiredExtensions", "systemLanguage"].iter().any(|key| node.has_attribute(*key));

@@ -4,10 +4,10 @@ use roxmltree::{Document, Node};
 
 /// The rules of a drawing's style sheets. Of selectors those that name an element, its class or its id are known.
 pub(super) struct Styles {
-    rules: Vec<Rule>,
+    rules: Vec<StyleRule>,
 }
 
-struct Rule {
+struct StyleRule {
     selector: String,
     declarations: String,
 }
@@ -54,11 +54,11 @@ fn without_comments(sheet: &str) -> String {
 }
 
 /// `.a, .b { … }` as a rule for each selector.
-fn rules(sheet: &str) -> Vec<Rule> {
+fn rules(sheet: &str) -> Vec<StyleRule> {
     let blocks = sheet.split('}').filter_map(|block| block.split_once('{'));
     let of_block = |(selectors, declarations): (&str, &str)| {
-        let rule = |s: &str| Rule { selector: s.trim().to_owned(), declarations: declarations.to_owned() };
-        selectors.split(',').map(rule).collect::<Vec<Rule>>()
+        let rule = |s: &str| StyleRule { selector: s.trim().to_owned(), declarations: declarations.to_owned() };
+        selectors.split(',').map(rule).collect::<Vec<StyleRule>>()
     };
     blocks.flat_map(of_block).collect()
 }

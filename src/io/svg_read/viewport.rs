@@ -11,12 +11,12 @@ const ASPECT: &str = "preserveAspectRatio";
 
 /// From an element's coordinates to metres on the sheet.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct ElementFrame {
     pub(super) linear: Matrix2<f64>,
     pub(super) shift: Vec2,
 }
 
-impl Frame {
+impl ElementFrame {
     /// This after an element's own transform.
     pub(super) fn after(self, (linear, shift): (Matrix2<f64>, Vec2)) -> Self {
         Self { linear: self.linear * linear, shift: self.linear * shift + self.shift }
@@ -24,8 +24,8 @@ impl Frame {
 }
 
 /// Where a drawing lies.
-pub(super) struct Sheet {
-    pub(super) frame: Frame,
+pub(super) struct Viewport {
+    pub(super) frame: ElementFrame,
     /// Its size in its own user units; nought where it does not say that.
     pub(super) size: Vec2,
     /// Its size in metres, if it says that or a viewBox does.
@@ -36,7 +36,7 @@ pub(super) struct Sheet {
 
 /// The drawing's frame, by width and height over viewBox as preserveAspectRatio says, by the one side's scale where
 /// only one is given; `pixel` is the length of a unit that has no name, and `unit` that of every user unit, if given.
-pub(super) fn sheet(root: Node, pixel: f64, unit: Option<f64>) -> Sheet {
+pub(super) fn sheet(root: Node, pixel: f64, unit: Option<f64>) -> Viewport {
     let view = view_box(root);
     let text = |key: &str| root.attribute(key);
     let side = |key: &str| text(key).and_then(|t| length_in(t, pixel)).filter(|metres| *metres > 0.0);
@@ -55,11 +55,11 @@ pub(super) fn sheet(root: Node, pixel: f64, unit: Option<f64>) -> Sheet {
         (None, [Some(x), Some(y)]) => fitted(root.attribute(ASPECT).unwrap_or(""), Vec2::new(x, y)).0,
         _ => Vec2::repeat(scales.into_iter().flatten().next().unwrap_or(pixel)),
     };
-    let frame = Frame { linear: Matrix2::from_diagonal(&scale), shift: -origin.component_mul(&scale) };
+    let frame = ElementFrame { linear: Matrix2::from_diagonal(&scale), shift: -origin.component_mul(&scale) };
     // Without a viewBox the lines are in units that have no name, however large the sheet is.
     let is_measured = view.is_some() && (is_named("width") || is_named("height"));
     let metres = Some(size.component_mul(&scale)).filter(|metres| metres.min() > 0.0);
-    Sheet { frame, size, metres, is_measured }
+    Viewport { frame, size, metres, is_measured }
 }
 
 /// The place of a drawing within one of the size `outer`, as a transform: its viewBox is fitted into the box that x, y,

@@ -12,8 +12,8 @@ use super::{
     centered, document, identifier, inch_square, number, polyline, printable, square, stroke, told_notch, with_kind,
 };
 use crate::cutting::{
-    CLOTH_LETTERS, Cloth, Lettering, MarkKind, NotchMark, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
-    materials,
+    CLOTH_LETTERS, ClothLength, Lettering, MarkKind, NotchMark, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE,
+    grain_arrow, materials,
 };
 use crate::geometry::{MM, Vec2};
 
@@ -58,7 +58,7 @@ fn layer(number: usize, material: &str) -> Group {
 }
 
 /// A stretch of cloth: its edges, its fold, and what it is.
-fn stretch(cloth: &Cloth) -> Group {
+fn stretch(cloth: &ClothLength) -> Group {
     let (low, high) = (cloth.corner * MM, (cloth.corner + cloth.size) * MM);
     let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y), low];
     let group = Group::new().set("class", "cloth").set("fill", "none").add(polyline(&corners, "selvedge", FINE));

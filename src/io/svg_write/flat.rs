@@ -56,7 +56,7 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
     let Begun { sheets, square, mut document } = begin(cloth, flat)?;
     if flat != cloth.flat {
         let drawn = Group::new().set("id", "drawn").set("class", "layer").set("fill", "none");
-        document = document.add(sheets.iter().flat_map(Sheet::outline).fold(drawn, Group::add));
+        document = document.add(sheets.iter().flat_map(SheetPiece::outline).fold(drawn, Group::add));
     }
     for sheet in &sheets {
         document = document.add(sheet.draw(&cloth.flat, notches));
@@ -71,13 +71,13 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
 /// As [`pattern_svg`].
 pub fn outline_svg(cloth: &ClothMesh, flat: &[Vec2]) -> Result<String, PatternSvgError> {
     let Begun { sheets, square, document } = begin(cloth, flat)?;
-    Ok(sheets.iter().map(Sheet::curves).fold(document, Document::add).add(square).to_string())
+    Ok(sheets.iter().map(SheetPiece::curves).fold(document, Document::add).add(square).to_string())
 }
 
 /// A drawing before its pieces are drawn.
 struct Begun<'a> {
     /// The pieces where they lie.
-    sheets: Vec<Sheet<'a>>,
+    sheets: Vec<SheetPiece<'a>>,
     /// The square to measure after printing.
     square: Group,
     /// Of the right size, and empty.
@@ -91,9 +91,10 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSv
     if let Some(v) = flat.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
         return Err(PatternSvgError::NotFinite(v));
     }
-    let mut sheets: Vec<Sheet<'_>> = cloth.pieces.iter().map(|piece| Sheet::new(piece, flat, &cloth.flat)).collect();
+    let mut sheets: Vec<SheetPiece<'_>> =
+        cloth.pieces.iter().map(|piece| SheetPiece::new(piece, flat, &cloth.flat)).collect();
     let side = Vec2::repeat(TEST_SQUARE * MM);
-    let sizes: Vec<Vec2> = sheets.iter().map(Sheet::size).chain([side]).collect();
+    let sizes: Vec<Vec2> = sheets.iter().map(SheetPiece::size).chain([side]).collect();
     let (corners, size) = shelves(&sizes, None, GAP);
     let margin = Vec2::repeat(MARGIN);
     for (sheet, corner) in sheets.iter_mut().zip(&corners) {
@@ -104,7 +105,7 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSv
 }
 
 /// A piece in millimetres on the sheet.
-struct Sheet<'a> {
+struct SheetPiece<'a> {
     piece: &'a PieceMesh,
     /// Of its particles.
     points: Vec<Vec2>,
@@ -116,7 +117,7 @@ struct Sheet<'a> {
     corners: [Vec2; 2],
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> SheetPiece<'a> {
     /// Turns the piece so that its warp is upright, by the smaller angle.
     fn new(piece: &'a PieceMesh, flat: &[Vec2], drawn: &[Vec2]) -> Self {
         let up = if piece.warp.y > 0.0 { -piece.warp } else { piece.warp };

@@ -18,7 +18,7 @@ pub(super) struct LinesFile {
     /// A fabric of the library or a file.
     pub(super) fabric: Option<String>,
     pub(super) darts: Option<DartsFile>,
-    pub(super) lines: Entries<LineFile>,
+    pub(super) lines: Entries<StyleLineFile>,
     pub(super) panels: Entries<PanelFile>,
 }
 
@@ -26,25 +26,25 @@ pub(super) struct LinesFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(untagged)]
 pub(super) enum EaseFile {
-    All(Length),
-    Girths(Entries<Length>),
+    All(LengthOrGirth),
+    Girths(Entries<LengthOrGirth>),
 }
 
 impl Default for EaseFile {
     fn default() -> Self {
-        Self::All(Length::Number(0.0))
+        Self::All(LengthOrGirth::Number(0.0))
     }
 }
 
 /// A length or, where one may be, a girth's name.
 #[derive(Clone, Debug, serde::Deserialize)]
 #[serde(untagged)]
-pub(super) enum Length {
+pub(super) enum LengthOrGirth {
     Number(f64),
     Text(String),
 }
 
-impl Length {
+impl LengthOrGirth {
     /// Metres. `None` for a word.
     pub(super) fn metres(&self) -> Option<f64> {
         let found = match self {
@@ -66,9 +66,9 @@ pub(super) enum DartsFile {
 /// A line: one of `girth`, `height`, `round` and `through`.
 #[derive(Clone, Debug, Default, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct LineFile {
+pub(super) struct StyleLineFile {
     pub(super) girth: Option<String>,
-    pub(super) height: Option<Length>,
+    pub(super) height: Option<LengthOrGirth>,
     pub(super) of: Option<String>,
     pub(super) round: Option<Vec<PointFile>>,
     pub(super) through: Option<Vec<PointFile>>,
@@ -91,7 +91,7 @@ pub(super) struct PanelFile {
 pub(super) struct PointFile {
     pub(super) at: Option<[f64; 3]>,
     pub(super) landmark: Option<String>,
-    pub(super) height: Option<Length>,
+    pub(super) height: Option<LengthOrGirth>,
     pub(super) angle: Option<f64>,
     pub(super) of: Option<String>,
     pub(super) on: Option<String>,
@@ -134,7 +134,7 @@ fn other(line: &str, side: &str) -> String {
 
 impl LinesFile {
     /// All lines; one that is there on `both` sides is two, `left NAME` and `right NAME`.
-    pub(super) fn all_lines(&self) -> Vec<(String, LineFile)> {
+    pub(super) fn all_lines(&self) -> Vec<(String, StyleLineFile)> {
         let doubled: Vec<String> = self.lines.0.iter().filter(|l| l.1.both).map(|l| l.0.clone()).collect();
         let mut all = Vec::new();
         for (name, line) in &self.lines.0 {
@@ -145,13 +145,13 @@ impl LinesFile {
             let points = |points: &Option<Vec<PointFile>>, of: &dyn Fn(&PointFile) -> PointFile| {
                 points.as_ref().map(|all| all.iter().map(of).collect())
             };
-            let side = |of: &dyn Fn(&PointFile) -> PointFile| LineFile {
+            let side = |of: &dyn Fn(&PointFile) -> PointFile| StyleLineFile {
                 round: points(&line.round, of),
                 through: points(&line.through, of),
                 ..line.clone()
             };
             all.push((format!("left {name}"), side(&|p| p.of_left(&doubled))));
-            let right = LineFile { of: line.of.as_deref().map(other_side), ..side(&|p| p.mirrored(&doubled)) };
+            let right = StyleLineFile { of: line.of.as_deref().map(other_side), ..side(&|p| p.mirrored(&doubled)) };
             all.push((format!("right {name}"), right));
         }
         all
@@ -178,8 +178,8 @@ pub(super) struct Entries<T>(pub(super) Vec<(String, T)>);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Reader<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Reader<T> {
+        struct DraftReader<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for DraftReader<T> {
             type Value = Entries<T>;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -197,6 +197,6 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
                 Ok(Entries(all))
             }
         }
-        from.deserialize_map(Reader(PhantomData))
+        from.deserialize_map(DraftReader(PhantomData))
     }
 }

@@ -21,8 +21,8 @@ use crate::mannequin::{Mannequin, PartKind};
 pub use error::DraftError;
 use file::{DartsFile, EaseFile, LinesFile};
 use place::Form;
-use shell::{Ease, shell, tape};
-use skin::{Line, Skin};
+use shell::{ShellEase, shell, tape};
+use skin::{LinedSkin, SkinLine};
 pub use written::{DraftedEase, DraftedPiece};
 
 /// The fabric of a draft that names none.
@@ -82,8 +82,15 @@ pub fn draft(body: &str, unit: Option<LengthUnit>, lines: &Path) -> Result<Draft
         return Err(wrong((failed.name.clone(), format!("cannot be laid flat: {}", failed.why))).into());
     }
     flat.name_edges(&|vertices| line_of(&form.skin.lines, vertices));
-    let about =
-        written::About { file: &file, body, given: &read.mannequin, ease: &ease, fabric, places: &named, reach };
+    let about = written::GarmentStatements {
+        file: &file,
+        body,
+        given: &read.mannequin,
+        ease: &ease,
+        fabric,
+        places: &named,
+        reach,
+    };
     let mut drafted = written::written(&flat, &about, &formed)?;
     drafted.notes = read.notes;
     Ok(drafted)
@@ -96,7 +103,7 @@ fn drawn<'a>(
     body: &'a Mannequin,
     formed: &Mannequin,
 ) -> Result<(Form<'a>, Vec<(String, Vec3)>), DraftError> {
-    let mut form = Form { body, skin: Skin { mesh: formed.mesh.clone(), lines: Vec::new() } };
+    let mut form = Form { body, skin: LinedSkin { mesh: formed.mesh.clone(), lines: Vec::new() } };
     for (name, line) in file.all_lines() {
         let wrong = |why| DraftError::Line { file: shown.to_owned(), line: name.clone(), why };
         form.draw(&name, &line).map_err(wrong)?;
@@ -116,9 +123,9 @@ fn drawn<'a>(
     Ok((form, named))
 }
 
-fn ease_of(file: &EaseFile, body: &Mannequin) -> Result<Ease, String> {
+fn ease_of(file: &EaseFile, body: &Mannequin) -> Result<ShellEase, String> {
     let height = |girth: &str| body.parts.iter().flat_map(|p| &p.landmarks).find(|l| l.0 == girth).map(|l| l.1.y);
-    let length = |name: &str, length: &file::Length| {
+    let length = |name: &str, length: &file::LengthOrGirth| {
         let found = length.metres().filter(|x| *x >= 0.0);
         found.ok_or_else(|| format!("ease {name}: give a length from nought on, such as 40 or '4 cm'"))
     };
@@ -140,7 +147,7 @@ fn ease_of(file: &EaseFile, body: &Mannequin) -> Result<Ease, String> {
         }
     }
     stations.sort_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(Ease { stations })
+    Ok(ShellEase { stations })
 }
 
 fn darts_of(file: Option<&DartsFile>) -> Result<Darts, String> {
@@ -153,7 +160,7 @@ fn darts_of(file: Option<&DartsFile>) -> Result<Darts, String> {
 }
 
 /// The panels as groups of faces, each of the region `chosen` for it.
-fn grouped(skin: &Skin, named: &[(String, Vec3)], regions: &[u32], chosen: &[u32]) -> ObjFaces {
+fn grouped(skin: &LinedSkin, named: &[(String, Vec3)], regions: &[u32], chosen: &[u32]) -> ObjFaces {
     let mut faces = ObjFaces {
         vertices: skin.mesh.vertices.clone(),
         groups: named.iter().map(|(name, _)| name.clone()).collect(),
@@ -169,8 +176,8 @@ fn grouped(skin: &Skin, named: &[(String, Vec3)], regions: &[u32], chosen: &[u32
 }
 
 /// The line on which most of these vertices lie, and more than one.
-fn line_of(lines: &[Line], vertices: &[u32]) -> Option<String> {
-    let on = |line: &Line| vertices.iter().filter(|v| line.chain.contains(v)).count();
+fn line_of(lines: &[SkinLine], vertices: &[u32]) -> Option<String> {
+    let on = |line: &SkinLine| vertices.iter().filter(|v| line.chain.contains(v)).count();
     let best = lines.iter().map(|line| (on(line), line)).reduce(|a, b| if b.0 > a.0 { b } else { a })?;
     (best.0 > 1).then(|| best.1.name.clone())
 }

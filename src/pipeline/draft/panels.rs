@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::place::Form;
-use super::skin::Skin;
+use super::skin::LinedSkin;
 use crate::contact::nearest_on_surface;
 use crate::geometry::{DisjointSets, MM, Topology, Vec3, rim_loops, sorted_pair};
 
 /// Regions between the lines: of every triangle the one that stands for its region.
-pub(super) fn regions(skin: &Skin) -> Vec<u32> {
+pub(super) fn regions(skin: &LinedSkin) -> Vec<u32> {
     let lines = skin.edges();
     let mut sets = DisjointSets::new(skin.mesh.triangles.len());
     for edge in Topology::new(&skin.mesh.triangles).edges {
@@ -46,7 +46,11 @@ pub(super) fn loose_end(form: &Form) -> Option<(String, String)> {
 }
 
 /// The region of every panel, by a point in it; `regions` as [`regions`] gives them.
-pub(super) fn chosen(skin: &Skin, regions: &[u32], panels: &[(String, Vec3)]) -> Result<Vec<u32>, (String, String)> {
+pub(super) fn chosen(
+    skin: &LinedSkin,
+    regions: &[u32],
+    panels: &[(String, Vec3)],
+) -> Result<Vec<u32>, (String, String)> {
     let mut out: Vec<u32> = Vec::new();
     for (name, at) in panels {
         let region = regions[nearest_on_surface(&skin.mesh, *at).0];

@@ -1,7 +1,7 @@
 //! Where the words of a file of lines lie on a body, and the lines through them.
 
-use super::file::{Length, LineFile, PointFile};
-use super::skin::{Line, Skin};
+use super::file::{LengthOrGirth, PointFile, StyleLineFile};
+use super::skin::{LinedSkin, SkinLine};
 use crate::contact::nearest_on_surface;
 use crate::geometry::{MM, Vec3, box_of, nearest_on_segment};
 use crate::mannequin::{BodyPart, Mannequin};
@@ -14,24 +14,24 @@ const OFF: f64 = 0.05;
 /// The body as it was, whose heights count, and its form with ease, on which the lines lie.
 pub(super) struct Form<'a> {
     pub(super) body: &'a Mannequin,
-    pub(super) skin: Skin,
+    pub(super) skin: LinedSkin,
 }
 
 impl Form<'_> {
     /// Draws a line.
-    pub(super) fn draw(&mut self, name: &str, line: &LineFile) -> Result<(), String> {
+    pub(super) fn draw(&mut self, name: &str, line: &StyleLineFile) -> Result<(), String> {
         let kinds = [line.girth.is_some(), line.height.is_some(), line.round.is_some(), line.through.is_some()];
         if kinds.iter().filter(|k| **k).count() != 1 {
             return Err("say one of 'girth', 'height', 'round' and 'through'".into());
         }
         let chain = match (&line.girth, &line.height, &line.round, &line.through) {
-            (Some(girth), ..) => self.level(&Length::Text(girth.clone()), line.of.as_deref())?,
+            (Some(girth), ..) => self.level(&LengthOrGirth::Text(girth.clone()), line.of.as_deref())?,
             (_, Some(height), ..) => self.level(height, line.of.as_deref())?,
             (_, _, Some(points), _) => self.round(points)?,
             (.., Some(points)) => self.through(name, points)?,
             _ => Vec::new(),
         };
-        self.skin.lines.push(Line { name: name.to_owned(), chain });
+        self.skin.lines.push(SkinLine { name: name.to_owned(), chain });
         Ok(())
     }
 
@@ -48,11 +48,11 @@ impl Form<'_> {
     }
 
     /// A height in metres.
-    fn height(&self, height: &Length) -> Result<f64, String> {
+    fn height(&self, height: &LengthOrGirth) -> Result<f64, String> {
         if let Some(y) = height.metres() {
             return Ok(y);
         }
-        let Length::Text(word) = height else { return Err("the height is no number".into()) };
+        let LengthOrGirth::Text(word) = height else { return Err("the height is no number".into()) };
         let marks = || self.body.parts.iter().flat_map(|p| &p.landmarks);
         let found = marks().find(|l| l.0 == *word).map(|l| l.1.y);
         let known: Vec<&str> = marks().map(|l| l.0.as_str()).collect();
@@ -144,7 +144,7 @@ impl Form<'_> {
         Ok(move |y: f64| part.map_or(Vec3::new(middle.x, y, middle.z), |part| axis(part, y)))
     }
 
-    fn level(&mut self, height: &Length, of: Option<&str>) -> Result<Vec<u32>, String> {
+    fn level(&mut self, height: &LengthOrGirth, of: Option<&str>) -> Result<Vec<u32>, String> {
         let y = self.height(height)?;
         let from = self.middle(y, of)?;
         let place = self.skin.ray(from, Vec3::z()).ok_or("leaves the body; give another height")?;

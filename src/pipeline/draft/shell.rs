@@ -20,12 +20,12 @@ const ROUNDS: usize = 3;
 
 /// How much longer the cloth is than the skin, by height.
 #[derive(Clone, Debug)]
-pub(super) struct Ease {
+pub(super) struct ShellEase {
     /// The girth's name, its height and ease, metres; from below. Without names and heights in one of all.
     pub(super) stations: Vec<(String, f64, f64)>,
 }
 
-impl Ease {
+impl ShellEase {
     /// Distance from the skin at a height, metres.
     fn off(&self, y: f64) -> f64 {
         let at = self.stations.partition_point(|s| s.1 < y);
@@ -39,13 +39,13 @@ impl Ease {
 }
 
 /// The convex hull of a level.
-struct Level {
+struct HullLevel {
     y: f64,
     center: Vec2,
     hull: Vec<Vec2>,
 }
 
-impl Level {
+impl HullLevel {
     fn of(body: &Mannequin, part: &BodyPart, y: f64) -> Option<Self> {
         let section = part.sections.iter().min_by(|a, b| (a.center.y - y).abs().total_cmp(&(b.center.y - y).abs()))?;
         let near = |middle: Vec3| (middle.x - section.center.x).abs() < 0.5 * section.half_width;
@@ -82,18 +82,18 @@ fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
 }
 
 /// Levels of a part where a tape goes round it alone, from below.
-fn levels(body: &Mannequin, part: &BodyPart) -> Vec<Level> {
+fn levels(body: &Mannequin, part: &BodyPart) -> Vec<HullLevel> {
     let heights = || part.sections.iter().map(|s| s.center.y);
     let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(0.0, f64::max));
     let count = ((high - low) / STEP) as usize;
     let all = (0..=count).map(|k| low + STEP * k as f64);
-    all.skip(1).map_while(|y| Level::of(body, part, y)).collect()
+    all.skip(1).map_while(|y| HullLevel::of(body, part, y)).collect()
 }
 
 /// The body as its clothes see it.
-pub(super) fn shell(body: &Mannequin, ease: &Ease) -> Mannequin {
+pub(super) fn shell(body: &Mannequin, ease: &ShellEase) -> Mannequin {
     let parts = body.parts.iter().filter(|p| p.kind == PartKind::Torso || p.kind.is_leg());
-    let levels: Vec<(PartKind, Vec<Level>)> = parts.map(|part| (part.kind, levels(body, part))).collect();
+    let levels: Vec<(PartKind, Vec<HullLevel>)> = parts.map(|part| (part.kind, levels(body, part))).collect();
     let mut given = ease.clone();
     let mut out = moved(body, &levels, &given);
     for _ in 0..ROUNDS {
@@ -117,7 +117,7 @@ pub(super) fn tape(body: &Mannequin, girth: &str) -> Option<f64> {
     body.tape(center, section.axis, |middle| (middle - center).norm() < reach)
 }
 
-fn moved(body: &Mannequin, levels: &[(PartKind, Vec<Level>)], ease: &Ease) -> Mannequin {
+fn moved(body: &Mannequin, levels: &[(PartKind, Vec<HullLevel>)], ease: &ShellEase) -> Mannequin {
     let normals = body.mesh.vertex_normals();
     let mut out = body.clone();
     for (p, normal) in out.mesh.vertices.iter_mut().zip(normals) {
@@ -134,7 +134,7 @@ fn moved(body: &Mannequin, levels: &[(PartKind, Vec<Level>)], ease: &Ease) -> Ma
 }
 
 /// A point moved out onto the spanned form, and the share of that in its place.
-fn spanned(p: Vec3, kind: PartKind, levels: &[Level], off: f64) -> Option<(Vec3, f64)> {
+fn spanned(p: Vec3, kind: PartKind, levels: &[HullLevel], off: f64) -> Option<(Vec3, f64)> {
     let at = levels.partition_point(|l| l.y <= p.y);
     let (below, above) = (levels.get(at.checked_sub(1)?)?, levels.get(at)?);
     let t = (p.y - below.y) / (above.y - below.y);

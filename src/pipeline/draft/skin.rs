@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::contact::nearest_on_surface;
-use crate::flatten::line::{Spot, Web, plane_section, straightened};
+use crate::flatten::line::{SurfacePoint, Web, plane_section, straightened};
 use crate::flatten::{Solid, shortest_path};
 use crate::geometry::{TriMesh, Vec3, sorted_pair};
 
@@ -12,7 +12,7 @@ const ASTRAY: f64 = 1.5;
 
 /// A line on the skin.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct SkinLine {
     pub(super) name: String,
     /// Vertices; a closed line ends in its first.
     pub(super) chain: Vec<u32>,
@@ -20,12 +20,12 @@ pub(super) struct Line {
 
 /// The surface, and the lines on it so far.
 #[derive(Clone, Debug)]
-pub(super) struct Skin {
+pub(super) struct LinedSkin {
     pub(super) mesh: TriMesh,
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<SkinLine>,
 }
 
-impl Skin {
+impl LinedSkin {
     pub(super) fn at(&self, v: u32) -> Vec3 {
         self.mesh.vertices[v as usize]
     }
@@ -68,7 +68,7 @@ impl Skin {
         let way = self.at(to) - self.at(from);
         let upright = self.normal(from) + self.normal(to);
         let normal = way.cross(&upright);
-        let length = |line: &[Spot]| crate::flatten::line::length(&self.mesh, line);
+        let length = |line: &[SurfacePoint]| crate::flatten::line::length(&self.mesh, line);
         let section = (normal.norm() > 0.0)
             .then(|| plane_section(&self.mesh, &web, normal, from, way, Some(to)))
             .flatten()
@@ -90,18 +90,18 @@ impl Skin {
     }
 
     /// Splits the triangles at spots that follow each other, and gives the vertices there.
-    fn split(&mut self, spots: &[Spot]) -> Vec<u32> {
+    fn split(&mut self, spots: &[SurfacePoint]) -> Vec<u32> {
         let before = self.mesh.clone();
         let mut at_edge = std::collections::BTreeMap::new();
         let mut chain = Vec::with_capacity(spots.len());
         for spot in spots {
             let vertex = match *spot {
-                Spot::Vertex(v) => v,
-                Spot::Edge { ends, .. } => {
+                SurfacePoint::Vertex(v) => v,
+                SurfacePoint::Edge { ends, .. } => {
                     let key = sorted_pair(ends);
                     *at_edge.entry(key).or_insert_with(|| self.split_edge(ends, spot.place(&before)))
                 }
-                Spot::Face { triangle, .. } => self.split_face(triangle as usize, spot.place(&before)),
+                SurfacePoint::Face { triangle, .. } => self.split_face(triangle as usize, spot.place(&before)),
             };
             chain.push(vertex);
         }

@@ -6,7 +6,7 @@ use super::super::error::PipelineError;
 use super::super::surface::FlatSurface;
 use super::Drafted;
 use super::file::LinesFile;
-use super::shell::Ease;
+use super::shell::ShellEase;
 use crate::geometry::{MM, Vec3};
 use crate::io::garment::write;
 use crate::mannequin::{Mannequin, PartKind};
@@ -45,12 +45,12 @@ pub struct DraftedEase {
 }
 
 /// All that a garment file says besides its pieces.
-pub(super) struct About<'a> {
+pub(super) struct GarmentStatements<'a> {
     pub(super) file: &'a LinesFile,
     /// As the user named it.
     pub(super) body: &'a str,
     pub(super) given: &'a Mannequin,
-    pub(super) ease: &'a Ease,
+    pub(super) ease: &'a ShellEase,
     pub(super) fabric: &'a str,
     /// A point in every panel.
     pub(super) places: &'a [(String, Vec3)],
@@ -62,7 +62,11 @@ fn here<T>(value: T) -> Located<T> {
     Located::new(value, Spot::default())
 }
 
-pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> Result<Drafted, PipelineError> {
+pub(super) fn written(
+    flat: &FlatSurface,
+    about: &GarmentStatements,
+    formed: &Mannequin,
+) -> Result<Drafted, PipelineError> {
     let mut file = flat.garment_file(true, None);
     file.name = Some(here(about.file.name.clone().unwrap_or_else(|| flat.report.surface.clone())));
     file.body = Some(here(about.body.to_owned()));
@@ -92,7 +96,7 @@ pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> 
 }
 
 /// Bounds that the garment keeps when it is made: closed seams, no crossing and, on a body, the ease asked for.
-fn tests(about: &About) -> Vec<TestFile> {
+fn tests(about: &GarmentStatements) -> Vec<TestFile> {
     let mm = |number: f64| here(Quantity { number, unit: Some(Unit::Millimetre) });
     let mut out = vec![TestFile::Gap(here("all".to_owned()), mm(1.0)), TestFile::Crossings(0)];
     if about.given.parts.is_empty() {

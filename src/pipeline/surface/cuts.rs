@@ -4,11 +4,11 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::super::error::PipelineError;
-use super::darts::Source;
-use super::parts::Part;
+use super::darts::LayingInput;
+use super::parts::SurfacePart;
 use super::report::{CutWhy, DartReport, HalvingReport};
-use super::sheet::Sheet;
-use crate::flatten::line::{Spot, Web, straightened};
+use super::sheet::CutFaces;
+use crate::flatten::line::{SurfacePoint, Web, straightened};
 use crate::flatten::{self, FlattenError, Flattened, Solid, disk_cuts, shortest_path, slit_from_rim};
 use crate::geometry::{MM, Topology, rim_loops, sorted_pair};
 
@@ -27,12 +27,16 @@ pub struct Cuts {
 }
 
 /// Cuts a surface as asked for, `parts` being the surface without cuts.
-pub(super) fn cut_as_asked(source: &Source<'_>, sheet: &mut Sheet, mut parts: Vec<Part>) -> Result<(), PipelineError> {
+pub(super) fn cut_as_asked(
+    source: &LayingInput<'_>,
+    sheet: &mut CutFaces,
+    mut parts: Vec<SurfacePart>,
+) -> Result<(), PipelineError> {
     let paths = &source.options.cuts.paths;
     let count = sheet.faces.vertices.len();
     let before = sheet.made.len();
     for path in paths {
-        let asked = Asked { stops: path, count };
+        let asked = AskedCut { stops: path, count };
         asked.check(sheet).map_err(|why| refused(source, path, why))?;
         let (mut chain, mut begun) = (Vec::new(), None);
         for leg in path.windows(2) {
@@ -40,7 +44,7 @@ pub(super) fn cut_as_asked(source: &Source<'_>, sheet: &mut Sheet, mut parts: Ve
             begun.get_or_insert_with(|| parts[part].name.clone());
             let way = sheet.split(&parts[part], &line);
             chain.extend(way.into_iter().skip(usize::from(!chain.is_empty())));
-            if line.iter().any(|spot| !matches!(spot, Spot::Vertex(_))) {
+            if line.iter().any(|spot| !matches!(spot, SurfacePoint::Vertex(_))) {
                 parts = sheet.parts();
             }
         }
@@ -55,7 +59,7 @@ pub(super) fn cut_as_asked(source: &Source<'_>, sheet: &mut Sheet, mut parts: Ve
     }
 }
 
-fn refused(source: &Source<'_>, path: &[u32], why: String) -> PipelineError {
+fn refused(source: &LayingInput<'_>, path: &[u32], why: String) -> PipelineError {
     let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
     PipelineError::Cut { file: source.file.to_owned(), cut, why }
 }
@@ -76,14 +80,14 @@ fn opens_nothing(chains: &[Vec<u32>], k: usize, rims: &HashSet<[u32; 2]>) -> Opt
 }
 
 /// A cut that is asked for by vertices, numbered from 1.
-struct Asked<'a> {
+struct AskedCut<'a> {
     stops: &'a [u32],
     /// How many vertices the file has.
     count: usize,
 }
 
-impl Asked<'_> {
-    fn check(&self, sheet: &Sheet) -> Result<(), String> {
+impl AskedCut<'_> {
+    fn check(&self, sheet: &CutFaces) -> Result<(), String> {
         let (stops, count) = (self.stops, self.count);
         if stops.len() < 2 {
             return Err("a cut goes through two vertices or more".into());
@@ -105,12 +109,17 @@ impl Asked<'_> {
     }
 
     /// The part in which two stops lie, and the straight line between them.
-    fn leg(&self, sheet: &Sheet, parts: &[Part], leg: [u32; 2]) -> Result<(usize, Vec<Spot>), String> {
-        let local = |part: &Part, v: u32| {
+    fn leg(
+        &self,
+        sheet: &CutFaces,
+        parts: &[SurfacePart],
+        leg: [u32; 2],
+    ) -> Result<(usize, Vec<SurfacePoint>), String> {
+        let local = |part: &SurfacePart, v: u32| {
             let place = sheet.same[v as usize - 1];
             part.vertices.iter().position(|&w| w == place).map(|k| k as u32)
         };
-        let both = |part: &Part| Some([local(part, leg[0])?, local(part, leg[1])?]);
+        let both = |part: &SurfacePart| Some([local(part, leg[0])?, local(part, leg[1])?]);
         let shared = parts.iter().enumerate().find_map(|(k, part)| Some((k, both(part)?)));
         let Some((k, [from, to])) = shared else {
             return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));
@@ -122,15 +131,15 @@ impl Asked<'_> {
 }
 
 /// The straight line along a chain of a part's vertices. A surface with one side is cut along the chain.
-pub(super) fn straight(part: &Part, chain: &[u32]) -> Vec<Spot> {
+pub(super) fn straight(part: &SurfacePart, chain: &[u32]) -> Vec<SurfacePoint> {
     if part.turned.is_none() {
-        return chain.iter().map(|&v| Spot::Vertex(v)).collect();
+        return chain.iter().map(|&v| SurfacePoint::Vertex(v)).collect();
     }
     straightened(&part.surface, &Web::new(&part.surface), chain)
 }
 
 /// Cuts along all sharp edges, as a block or a box is sewn.
-pub(super) fn cut_sharp(sheet: &mut Sheet) {
+pub(super) fn cut_sharp(sheet: &mut CutFaces) {
     /// Cosine of 50°.
     const SHARP: f64 = 0.642_787_6;
     let parts = sheet.parts();
@@ -150,7 +159,7 @@ pub(super) fn cut_sharp(sheet: &mut Sheet) {
 }
 
 /// Cuts open what is no disk, one line after the other, the part `number` only where it is given.
-pub(super) fn cut_open(sheet: &mut Sheet, number: Option<usize>) {
+pub(super) fn cut_open(sheet: &mut CutFaces, number: Option<usize>) {
     /// A surface with more holes and handles is cut in other ways.
     const MOST: usize = 1000;
     let parts = sheet.parts().len();
@@ -166,7 +175,7 @@ pub(super) fn cut_open(sheet: &mut Sheet, number: Option<usize>) {
 
 /// The line that opens a part next: of the ways along which it must be cut the shortest that is closed, or begins or
 /// ends at the rim; where there is none the shortest two that make a closed one.
-fn next_opening(part: &Part) -> Option<Vec<Spot>> {
+fn next_opening(part: &SurfacePart) -> Option<Vec<SurfacePoint>> {
     let ways = opening(part);
     let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();
     let is_slit = |way: &[u32]| ways.len() == 1 && way.len() > 2;
@@ -198,27 +207,27 @@ fn rings(ways: &[Vec<u32>]) -> Vec<Vec<u32>> {
 
 /// The straight line along a chain of a part's vertices, or the chain itself where that line would touch the rim, and
 /// so part the surface.
-pub(super) fn straight_inside(part: &Part, chain: &[u32]) -> Vec<Spot> {
+pub(super) fn straight_inside(part: &SurfacePart, chain: &[u32]) -> Vec<SurfacePoint> {
     let line = straight(part, chain);
     let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();
-    let on_rim = |spot: &Spot| matches!(spot, Spot::Vertex(v) if rim.contains(v));
+    let on_rim = |spot: &SurfacePoint| matches!(spot, SurfacePoint::Vertex(v) if rim.contains(v));
     let is_clear = line.len() < 3 || !line[1..line.len() - 1].iter().any(on_rim);
-    if is_clear { line } else { chain.iter().map(|&v| Spot::Vertex(v)).collect() }
+    if is_clear { line } else { chain.iter().map(|&v| SurfacePoint::Vertex(v)).collect() }
 }
 
 /// The ways along which a part must be cut to become a disk; none for a disk.
-pub(super) fn opening(part: &Part) -> Vec<Vec<u32>> {
+pub(super) fn opening(part: &SurfacePart) -> Vec<Vec<u32>> {
     chains(&disk_cuts(&part.surface, &part.diagonals))
 }
 
 /// The way from a part's rim to its far end.
-pub(super) fn slit(part: &Part) -> Vec<u32> {
+pub(super) fn slit(part: &SurfacePart) -> Vec<u32> {
     slit_from_rim(&part.surface, &part.diagonals)
 }
 
 /// The rims of all parts as edges of the file's vertices, from 1, smaller first.
-fn rim_edges(parts: &[Part]) -> HashSet<[u32; 2]> {
-    let of_part = |part: &Part| {
+fn rim_edges(parts: &[SurfacePart]) -> HashSet<[u32; 2]> {
+    let of_part = |part: &SurfacePart| {
         let topology = Topology::new(&part.surface.triangles);
         topology.rim_edges().map(|e| sorted_pair(e.ends.map(|v| part.number(v)))).collect::<Vec<_>>()
     };
@@ -256,7 +265,7 @@ fn chains(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
 }
 
 /// A part's error in the file's numbers, with where to cut if that is the remedy.
-pub(super) fn advise(file: &Path, part: &Part, error: FlattenError) -> PipelineError {
+pub(super) fn advise(file: &Path, part: &SurfacePart, error: FlattenError) -> PipelineError {
     let curable = matches!(error, FlattenError::Closed | FlattenError::Handles(_) | FlattenError::OneSided(_));
     let source = FlattenError::Piece { piece: part.name.clone(), source: Box::new(part.blame(error)) };
     let ways = if curable { opening(part) } else { Vec::new() };
@@ -268,20 +277,20 @@ pub(super) fn advise(file: &Path, part: &Part, error: FlattenError) -> PipelineE
     PipelineError::NoDisk { file: file.to_owned(), source, advice }
 }
 
-fn described(part: &Part, way: &[u32]) -> String {
+fn described(part: &SurfacePart, way: &[u32]) -> String {
     let ends = [way[0], way[way.len() - 1]].map(|v| part.number(v));
     format!("from vertex {} to vertex {} ({:.1} mm)", ends[0], ends[1], length(part, way))
 }
 
 /// Millimetres.
-fn length(part: &Part, way: &[u32]) -> f64 {
+fn length(part: &SurfacePart, way: &[u32]) -> f64 {
     let at = |v: u32| part.surface.vertices[v as usize];
     way.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>() * MM
 }
 
 /// Where a dart would relieve a part; empty where none can be told. It starts on no other cut: the sides of a cut are
 /// the same vertices of the file, and its end is between two that are.
-pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
+pub(super) fn dart(part: &SurfacePart, flat: &Flattened) -> Vec<u32> {
     let mut count: HashMap<u32, usize> = HashMap::new();
     part.vertices.iter().for_each(|&v| *count.entry(v).or_default() += 1);
     let is_cut = |v: u32| count[&part.vertices[v as usize]] > 1;
@@ -298,19 +307,19 @@ pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
 }
 
 /// The way along which a part is best cut in two; empty where there is none.
-pub(super) fn halving(part: &Part) -> Vec<u32> {
+pub(super) fn halving(part: &SurfacePart) -> Vec<u32> {
     flatten::halving(&part.surface, &part.diagonals)
 }
 
 /// The same as it is reported.
-pub(super) fn proposed_halving(part: &Part) -> Option<HalvingReport> {
+pub(super) fn proposed_halving(part: &SurfacePart) -> Option<HalvingReport> {
     let way = halving(part);
     let [from, .., to] = *way else { return None };
     Some(HalvingReport { from: part.number(from), to: part.number(to), length: length(part, &way) })
 }
 
 /// A dart as it is reported.
-pub(super) fn proposal(part: &Part, dart: &[u32]) -> Option<DartReport> {
+pub(super) fn proposal(part: &SurfacePart, dart: &[u32]) -> Option<DartReport> {
     let [rim, .., tip] = *dart else { return None };
     Some(DartReport { rim: part.number(rim), tip: part.number(tip), length: length(part, dart) })
 }

@@ -12,13 +12,13 @@ use super::SurfaceOptions;
 use super::cuts;
 use super::edges::breaks_of;
 use super::even::even_darts;
-use super::parts::Part;
+use super::parts::SurfacePart;
 use super::report::CutWhy;
-use super::sheet::Sheet;
+use super::sheet::CutFaces;
 use crate::flatten::{FlattenError, Flattened, Mode, flatten_between, one_sided};
 
 /// How a surface is laid flat.
-pub(super) struct Source<'a> {
+pub(super) struct LayingInput<'a> {
     pub(super) file: &'a Path,
     pub(super) options: &'a SurfaceOptions,
 }
@@ -28,10 +28,10 @@ pub(super) struct Source<'a> {
 const IDLE: f64 = 1.001;
 
 /// A part of the surface laid flat.
-pub(super) struct Laid {
+pub(super) struct LaidPart {
     /// Its place among all parts.
     pub(super) number: usize,
-    pub(super) part: Part,
+    pub(super) part: SurfacePart,
     pub(super) flat: Flattened,
     /// Between which of its rim's vertices lengths were to stay.
     pub(super) breaks: Vec<u32>,
@@ -59,20 +59,25 @@ pub enum DartStop {
 pub(super) struct Failed {
     /// Its place among all parts.
     number: usize,
-    pub(super) part: Part,
+    pub(super) part: SurfacePart,
     /// In the file's numbers, with where to cut if that is the remedy.
     pub(super) error: PipelineError,
 }
 
 /// All parts of a surface, each with its own outcome.
-pub(super) struct Outcome {
-    pub(super) laid: Vec<Laid>,
+pub(super) struct LaidSurface {
+    pub(super) laid: Vec<LaidPart>,
     pub(super) failed: Vec<Failed>,
 }
 
-impl Source<'_> {
+impl LayingInput<'_> {
     /// A part laid flat, `number` being its place among all parts.
-    pub(super) fn lay(&self, number: usize, part: Part, breaks: Vec<u32>) -> Result<Laid, Box<(Part, FlattenError)>> {
+    pub(super) fn lay(
+        &self,
+        number: usize,
+        part: SurfacePart,
+        breaks: Vec<u32>,
+    ) -> Result<LaidPart, Box<(SurfacePart, FlattenError)>> {
         if part.turned.is_none() {
             let error = FlattenError::OneSided(one_sided(&part.surface.triangles));
             return Err(Box::new((part, error)));
@@ -83,11 +88,11 @@ impl Source<'_> {
         };
         let strained = self.options.limit.passed(&flat.report);
         let dart = if strained { cuts::dart(&part, &flat) } else { Vec::new() };
-        Ok(Laid { number, part, flat, breaks, dart, darts: 0, stop: None })
+        Ok(LaidPart { number, part, flat, breaks, dart, darts: 0, stop: None })
     }
 
     /// The part of this number of a sheet laid flat.
-    pub(super) fn lay_of(&self, sheet: &Sheet, number: usize) -> Result<Laid, Box<(Part, FlattenError)>> {
+    pub(super) fn lay_of(&self, sheet: &CutFaces, number: usize) -> Result<LaidPart, Box<(SurfacePart, FlattenError)>> {
         let mut parts = sheet.parts();
         let breaks = breaks_of(&parts.iter().collect::<Vec<_>>()).swap_remove(number);
         self.lay(number, parts.swap_remove(number), breaks)
@@ -95,13 +100,13 @@ impl Source<'_> {
 
     /// Lays all parts flat, each by itself. One that cannot be laid flat, or is strained beyond the limit, is cut where
     /// that is its remedy.
-    fn lay_all(&self, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
+    fn lay_all(&self, sheet: &mut CutFaces) -> Result<LaidSurface, PipelineError> {
         let parts = sheet.parts();
         let breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
         let numbered = parts.into_par_iter().enumerate().zip(breaks);
         let all: Vec<_> = numbered.map(|((number, part), breaks)| self.lay(number, part, breaks)).collect();
         let cut_before = sheet.made.len();
-        let mut out = Outcome { laid: Vec::new(), failed: Vec::new() };
+        let mut out = LaidSurface { laid: Vec::new(), failed: Vec::new() };
         for (number, result) in all.into_iter().enumerate() {
             match self.remedied(number, result, sheet) {
                 Ok(laid) => out.laid.push(laid),
@@ -122,9 +127,9 @@ impl Source<'_> {
     fn remedied(
         &self,
         number: usize,
-        whole: Result<Laid, Box<(Part, FlattenError)>>,
-        sheet: &mut Sheet,
-    ) -> Result<Laid, Box<(Part, FlattenError)>> {
+        whole: Result<LaidPart, Box<(SurfacePart, FlattenError)>>,
+        sheet: &mut CutFaces,
+    ) -> Result<LaidPart, Box<(SurfacePart, FlattenError)>> {
         let needs_none = match &whole {
             Ok(laid) => !self.options.limit.passed(&laid.flat.report),
             Err(failed) => !matches!(failed.1, FlattenError::Breakdown | FlattenError::FlippedStart(_)),
@@ -134,7 +139,7 @@ impl Source<'_> {
         }
         let mut cut = sheet.clone();
         cuts::cut_open(&mut cut, Some(number));
-        let deep = |laid: &Laid| self.options.darts.is_none() && laid.is_deep();
+        let deep = |laid: &LaidPart| self.options.darts.is_none() && laid.is_deep();
         if cut.made.len() == sheet.made.len() && whole.as_ref().map_or(true, deep) {
             // Earlier cuts may have split it, so that its numbers are those of the sheet as it is now.
             let part = cut.parts().swap_remove(number);
@@ -155,19 +160,19 @@ impl Source<'_> {
     }
 
     /// A part with its next dart, and the sheet with it; `None` where it cannot be laid flat with it.
-    fn with_next_dart(&self, own: &Laid, sheet: &Sheet) -> Option<(Laid, Sheet)> {
+    fn with_next_dart(&self, own: &LaidPart, sheet: &CutFaces) -> Option<(LaidPart, CutFaces)> {
         let mut cut = sheet.clone();
         cut.cut(&own.part, &cuts::straight_inside(&own.part, &own.dart), CutWhy::Dart);
         // A dart ends inside its part and leaves it whole, so that all parts keep their numbers.
         let laid = self.lay_of(&cut, own.number).ok()?;
         cut.tell_strain(sheet.made.len(), [own, &laid].map(|laid| laid.flat.report.strain_p99));
-        Some((Laid { darts: own.darts + 1, ..laid }, cut))
+        Some((LaidPart { darts: own.darts + 1, ..laid }, cut))
     }
 
     /// Closes those darts of a part again, cut from number `first` on, that bring nothing any more: without which it is
     /// strained no more. While darts are cut that cannot be known, for a part may need several before one helps.
-    fn close_idle(&self, own: &mut Laid, sheet: &mut Sheet, first: usize) {
-        let share = |laid: &Laid| self.options.limit.share(&laid.flat.report);
+    fn close_idle(&self, own: &mut LaidPart, sheet: &mut CutFaces, first: usize) {
+        let share = |laid: &LaidPart| self.options.limit.share(&laid.flat.report);
         for number in (first..sheet.made.len()).rev() {
             if sheet.made[number].piece != own.part.name {
                 continue;
@@ -176,7 +181,7 @@ impl Source<'_> {
             closed.close(number);
             let Ok(laid) = self.lay_of(&closed, own.number) else { continue };
             if share(&laid) <= IDLE * share(own) && laid.lies_as_well_as(own) {
-                *own = Laid { darts: own.darts - 1, stop: own.stop, ..laid };
+                *own = LaidPart { darts: own.darts - 1, stop: own.stop, ..laid };
                 *sheet = closed;
                 if own.stop.is_none() && share(own) > 1.0 {
                     // The next one would be this one again.
@@ -188,7 +193,7 @@ impl Source<'_> {
 
     /// Lays those parts once more that a cut in another one has changed: what is sewn to its mouth has a vertex there
     /// too and, where only whole chains of the rim are held, must end there.
-    pub(super) fn refresh(&self, outcome: &mut Outcome, sheet: &Sheet) -> Result<(), PipelineError> {
+    pub(super) fn refresh(&self, outcome: &mut LaidSurface, sheet: &CutFaces) -> Result<(), PipelineError> {
         let parts = sheet.parts();
         let mut breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
         for own in &mut outcome.laid {
@@ -197,7 +202,7 @@ impl Source<'_> {
             if held || own.part.faces != part.faces {
                 let laid = self.lay(own.number, part.clone(), breaks);
                 let laid = laid.map_err(|failed| cuts::advise(self.file, &failed.0, failed.1))?;
-                *own = Laid { darts: own.darts, stop: own.stop, ..laid };
+                *own = LaidPart { darts: own.darts, stop: own.stop, ..laid };
             }
         }
         for failed in &mut outcome.failed {
@@ -207,7 +212,7 @@ impl Source<'_> {
     }
 
     /// Of the parts beyond the limit that may get a dart the one that is strained most, the first of several.
-    fn neediest(&self, laid: &[Laid]) -> Option<usize> {
+    fn neediest(&self, laid: &[LaidPart]) -> Option<usize> {
         let strain = |k: usize| self.options.limit.share(&laid[k].flat.report);
         let open = (0..laid.len()).filter(|&k| laid[k].dart.len() > 1 && laid[k].stop.is_none());
         open.max_by(|&a, &b| strain(a).total_cmp(&strain(b)).then(b.cmp(&a)))
@@ -215,7 +220,7 @@ impl Source<'_> {
 }
 
 /// Whether a cut from rim to rim brings a part much: a ring that stays whole needs no seam.
-fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
+fn is_worth_a_cut(cut: &LaidPart, whole: &LaidPart) -> bool {
     /// Share of the strain that may be left.
     const LEFT: f64 = 0.5;
     cut.flat.report.strain_p99 < LEFT * whole.flat.report.strain_p99
@@ -225,7 +230,7 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
 /// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
 /// A dart that would make a flat piece lie on itself is not cut, and its part gets no other. Those that bring nothing
 /// in the end are closed again. `sheet` has those that are left.
-pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
+pub(super) fn with_darts(source: &LayingInput<'_>, sheet: &mut CutFaces) -> Result<LaidSurface, PipelineError> {
     let mut out = source.lay_all(sheet)?;
     let Some(darts) = source.options.darts else { return Ok(out) };
     even_darts(source, sheet, &mut out.laid, darts);
@@ -244,11 +249,11 @@ pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outco
     }
     out.laid.iter_mut().for_each(|own| source.close_idle(own, sheet, first));
     source.refresh(&mut out, sheet)?;
-    out.laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
+    out.laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(LaidPart::say_why);
     Ok(out)
 }
 
-impl Laid {
+impl LaidPart {
     /// Whether it is much deeper than wide, so that no flat piece with its rim has a quarter of its area.
     fn is_deep(&self) -> bool {
         /// Least L²/4πS.

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::super::error::PipelineError;
 use super::cuts::straight;
 use super::even::local;
-use super::parts::Part;
+use super::parts::SurfacePart;
 use super::report::CutWhy;
-use super::sheet::Sheet;
+use super::sheet::CutFaces;
 use crate::contact::nearest_on_surface;
 use crate::flatten::line::Web;
 use crate::flatten::{Solid, shortest_path};
@@ -21,7 +21,7 @@ const STRAIGHT: f64 = 2.5e-4;
 const TO_RIM: f64 = 1e-3;
 
 /// Cuts along the lines of a file, in the unit and the axes of the surface.
-pub(super) fn cut_drawn(sheet: &mut Sheet, file: &Path) -> Result<(), PipelineError> {
+pub(super) fn cut_drawn(sheet: &mut CutFaces, file: &Path) -> Result<(), PipelineError> {
     for (k, line) in (1..).zip(read_lines(file)?) {
         let places: Vec<Vec3> = line.into_iter().map(|p| sheet.space.place(p)).collect();
         let refused = |why: String| PipelineError::Drawn { file: file.to_owned(), line: k, why };
@@ -32,7 +32,7 @@ pub(super) fn cut_drawn(sheet: &mut Sheet, file: &Path) -> Result<(), PipelineEr
 }
 
 /// Plans the cut along one line.
-fn draw(sheet: &mut Sheet, places: &[Vec3]) -> Result<(), String> {
+fn draw(sheet: &mut CutFaces, places: &[Vec3]) -> Result<(), String> {
     let number = part_of(sheet, places)?;
     let name = sheet.parts()[number].name.clone();
     let mut chain: Vec<u32> = Vec::new();
@@ -58,9 +58,9 @@ fn draw(sheet: &mut Sheet, places: &[Vec3]) -> Result<(), String> {
 }
 
 /// The part that most points of a line are nearest to.
-fn part_of(sheet: &Sheet, places: &[Vec3]) -> Result<usize, String> {
+fn part_of(sheet: &CutFaces, places: &[Vec3]) -> Result<usize, String> {
     let parts = sheet.parts();
-    let far = |part: &Part, p: Vec3| nearest_on_surface(&part.surface, p).2;
+    let far = |part: &SurfacePart, p: Vec3| nearest_on_surface(&part.surface, p).2;
     let nearest_part = |p: Vec3| {
         let all: Vec<f64> = parts.iter().map(|part| far(part, p)).collect();
         (0..all.len()).min_by(|&a, &b| all[a].total_cmp(&all[b]))
@@ -81,7 +81,7 @@ fn part_of(sheet: &Sheet, places: &[Vec3]) -> Result<usize, String> {
 
 /// The vertex at the point of a part nearest to `place`, a new one where there is none. The end of a line that is near
 /// the rim lies on it.
-fn vertex_at(sheet: &mut Sheet, number: usize, place: Vec3, is_end: bool) -> u32 {
+fn vertex_at(sheet: &mut CutFaces, number: usize, place: Vec3, is_end: bool) -> u32 {
     let part = sheet.parts().swap_remove(number);
     let web = Web::new(&part.surface);
     let (triangle, weights, _) = nearest_on_surface(&part.surface, place);

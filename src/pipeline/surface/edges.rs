@@ -6,7 +6,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-use super::parts::Part;
+use super::parts::SurfacePart;
 use crate::geometry::{rim_loops, sorted_pair};
 
 /// Turn of a rim within reach that makes a corner, radians (30°).
@@ -20,7 +20,7 @@ const SHARP: f64 = PI / 3.0;
 
 /// A named edge of a part.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct NamedEdge {
+pub(super) struct PartRimEdge {
     /// Its number along its rim from 1, with the rim's before it where there are several: `3`, `2.1`.
     pub(super) name: String,
     /// Index of its rim.
@@ -36,7 +36,7 @@ pub(super) struct NamedEdge {
 /// The partner of a rim edge: a part, and its own vertices there.
 type Other = Option<(usize, [u32; 2])>;
 
-impl NamedEdge {
+impl PartRimEdge {
     /// Number of its sides before its middle. `own` is the index of its part and of the edge in it. Partners run
     /// against each other and have the same middle.
     pub(super) fn middle(&self, own: [usize; 2]) -> usize {
@@ -49,7 +49,7 @@ impl NamedEdge {
 
 /// Vertices of every part's rims between which lengths must stay if edges are to be sewn together at their ends and at
 /// their middle: partners have the same.
-pub(super) fn breaks_of(parts: &[&Part]) -> Vec<Vec<u32>> {
+pub(super) fn breaks_of(parts: &[&SurfacePart]) -> Vec<Vec<u32>> {
     let edges = named_edges(parts);
     let mut breaks: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); parts.len()];
     for (p, edges) in edges.iter().enumerate() {
@@ -64,17 +64,17 @@ pub(super) fn breaks_of(parts: &[&Part]) -> Vec<Vec<u32>> {
 }
 
 /// The named edges of every part.
-pub(super) fn named_edges(parts: &[&Part]) -> Vec<Vec<NamedEdge>> {
+pub(super) fn named_edges(parts: &[&SurfacePart]) -> Vec<Vec<PartRimEdge>> {
     let loops: Vec<Vec<Vec<u32>>> = parts.iter().map(|p| rim_loops(&p.surface.triangles)).collect();
     let others = Others::new(parts, &loops);
-    let mut all: Vec<Vec<NamedEdge>> = Vec::with_capacity(parts.len());
+    let mut all: Vec<Vec<PartRimEdge>> = Vec::with_capacity(parts.len());
     for (k, part) in parts.iter().enumerate() {
         let mut edges = Vec::new();
         for (ring, rim) in loops[k].iter().enumerate() {
             let several = loops[k].len() > 1;
             let name = |n: usize| if several { format!("{}.{n}", ring + 1) } else { n.to_string() };
             let chains = chains(rim, &breaks(part, k, rim, &others), part);
-            edges.extend((1..).zip(chains).map(|(n, vertices)| NamedEdge {
+            edges.extend((1..).zip(chains).map(|(n, vertices)| PartRimEdge {
                 name: name(n),
                 ring,
                 vertices,
@@ -95,7 +95,7 @@ struct Others {
 }
 
 impl Others {
-    fn new(parts: &[&Part], loops: &[Vec<Vec<u32>>]) -> Self {
+    fn new(parts: &[&SurfacePart], loops: &[Vec<Vec<u32>>]) -> Self {
         let mut at: HashMap<[u32; 2], Vec<(usize, [u32; 2])>> = HashMap::new();
         for (k, (part, loops)) in parts.iter().zip(loops).enumerate() {
             for ends in loops.iter().flat_map(|rim| sides(rim)) {
@@ -114,7 +114,7 @@ impl Others {
     }
 
     /// Breaks the other side of every edge where this one is broken. Returns whether there was a new break.
-    fn pass_on(&self, parts: &[&Part], breaks: &mut [BTreeSet<u32>]) -> bool {
+    fn pass_on(&self, parts: &[&SurfacePart], breaks: &mut [BTreeSet<u32>]) -> bool {
         let mut broken = false;
         for (&(p, ends), &(q, across)) in &self.of {
             for v in ends.into_iter().filter(|v| breaks[p].contains(v)).collect::<Vec<_>>() {
@@ -135,7 +135,7 @@ fn sides(rim: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 }
 
 /// For every vertex of a rim whether an edge ends there.
-fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> {
+fn breaks(part: &SurfacePart, index: usize, rim: &[u32], others: &Others) -> Vec<bool> {
     let mut breaks = corners(part, rim);
     for k in 0..rim.len() {
         let [a, b, c] = [rim.len() - 1, 0, 1].map(|step| rim[(k + step) % rim.len()]);
@@ -156,9 +156,9 @@ fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> 
 }
 
 /// Corners of a rim: sharp turns, each at the vertex that turns most.
-fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
+fn corners(part: &SurfacePart, rim: &[u32]) -> Vec<bool> {
     let turns = turns(part, rim);
-    let near = Near::new(part, rim);
+    let near = RimNeighbourhood::new(part, rim);
     (0..rim.len())
         .map(|k| {
             let own = turns[k].abs();
@@ -174,14 +174,14 @@ fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
 }
 
 /// The neighbourhood of each vertex of a rim.
-struct Near {
+struct RimNeighbourhood {
     /// Lengths of the rim's sides.
     lengths: Vec<f64>,
     reach: f64,
 }
 
-impl Near {
-    fn new(part: &Part, rim: &[u32]) -> Self {
+impl RimNeighbourhood {
+    fn new(part: &SurfacePart, rim: &[u32]) -> Self {
         let at = |v: u32| part.surface.vertices[v as usize];
         let lengths: Vec<f64> = sides(rim).map(|[a, b]| (at(b) - at(a)).norm()).collect();
         Self { reach: REACH * lengths.iter().sum::<f64>(), lengths }
@@ -204,7 +204,7 @@ impl Near {
 
 /// By how much the rim turns at each of its vertices on the surface:
 /// half a turn less the angles of the triangles there.
-fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
+fn turns(part: &SurfacePart, rim: &[u32]) -> Vec<f64> {
     let place: HashMap<u32, usize> = rim.iter().enumerate().map(|(k, &v)| (v, k)).collect();
     let mut turns = vec![PI; rim.len()];
     for (t, corners) in part.surface.triangles.iter().enumerate() {
@@ -221,7 +221,7 @@ fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
 
 /// A rim cut at its breaks, from the break with the lowest number in the file on. Without breaks,
 /// from the lowest vertex.
-fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
+fn chains(rim: &[u32], breaks: &[bool], part: &SurfacePart) -> Vec<Vec<u32>> {
     let number = |k: &usize| (part.number(rim[*k]), *k);
     let open = (0..rim.len()).filter(|&k| breaks[k]).min_by_key(number);
     let Some(first) = open.or_else(|| (0..rim.len()).min_by_key(number)) else { return Vec::new() };
@@ -238,7 +238,7 @@ fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
 }
 
 /// Says of every edge which one lies on the other side, where it is one edge from end to end.
-fn pair(all: &mut [Vec<NamedEdge>], others: &Others) {
+fn pair(all: &mut [Vec<PartRimEdge>], others: &Others) {
     let mut home: HashMap<(usize, [u32; 2]), [usize; 2]> = HashMap::new();
     for (p, edges) in all.iter().enumerate() {
         for (e, edge) in edges.iter().enumerate() {

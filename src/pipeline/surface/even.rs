@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::Darts;
-use super::darts::{DartStop, Laid, Source};
-use super::parts::Part;
+use super::darts::{DartStop, LaidPart, LayingInput};
+use super::parts::SurfacePart;
 use super::report::CutWhy;
-use super::sheet::Sheet;
-use crate::flatten::line::{Spot, Web, begun, length};
+use super::sheet::CutFaces;
+use crate::flatten::line::{SurfacePoint, Web, begun, length};
 use crate::flatten::round::Round;
 
 /// A part is round when its rim is nowhere nearer to its axis than this share of its largest distance: an ellipse of
@@ -25,14 +25,14 @@ const FEWEST: usize = 2;
 
 /// Cuts even darts into the parts that are round and strained beyond the limit, each its own: so many, or the fewest
 /// that bring it within the limit.
-pub(super) fn even_darts(source: &Source<'_>, sheet: &mut Sheet, laid: &mut [Laid], darts: Darts) {
+pub(super) fn even_darts(source: &LayingInput<'_>, sheet: &mut CutFaces, laid: &mut [LaidPart], darts: Darts) {
     let counts = match darts {
         Darts::Auto => AUTO.to_vec(),
         Darts::Enough => ENOUGH.to_vec(),
         Darts::Count(count) => vec![count],
     };
     for own in laid.iter_mut().filter(|own| source.options.limit.passed(&own.flat.report)) {
-        let mut best: Option<(Laid, Sheet)> = None;
+        let mut best: Option<(LaidPart, CutFaces)> = None;
         for &count in counts.iter().filter(|count| **count >= FEWEST) {
             let Some(darted) = with_even_darts(source, sheet, own, count) else { continue };
             let enough = !source.options.limit.passed(&darted.0.flat.report);
@@ -51,7 +51,12 @@ pub(super) fn even_darts(source: &Source<'_>, sheet: &mut Sheet, laid: &mut [Lai
 
 /// A round part with so many even darts, and the sheet with them: `None` where it is not round, or no such darts leave
 /// less strain.
-fn with_even_darts(source: &Source<'_>, sheet: &Sheet, own: &Laid, count: usize) -> Option<(Laid, Sheet)> {
+fn with_even_darts(
+    source: &LayingInput<'_>,
+    sheet: &CutFaces,
+    own: &LaidPart,
+    count: usize,
+) -> Option<(LaidPart, CutFaces)> {
     let mut drawn = sheet.clone();
     let (round, pole) = with_pole(&mut drawn, own.number)?;
     let tried = TIPS.into_par_iter().map(|tip| {
@@ -62,14 +67,14 @@ fn with_even_darts(source: &Source<'_>, sheet: &Sheet, own: &Laid, count: usize)
         cut.tell_strain(sheet.made.len(), [own, &laid].map(|laid| laid.flat.report.strain_p99));
         laid.lies_as_well_as(own).then_some((laid, cut))
     });
-    let tried: Vec<(Laid, Sheet)> = tried.collect::<Vec<_>>().into_iter().flatten().collect();
-    let strain = |laid: &Laid| source.options.limit.share(&laid.flat.report);
+    let tried: Vec<(LaidPart, CutFaces)> = tried.collect::<Vec<_>>().into_iter().flatten().collect();
+    let strain = |laid: &LaidPart| source.options.limit.share(&laid.flat.report);
     let best = tried.into_iter().min_by(|a, b| strain(&a.0).total_cmp(&strain(&b.0)))?;
-    (strain(&best.0) < strain(own)).then(|| (Laid { darts: count, stop: None, ..best.0 }, best.1))
+    (strain(&best.0) < strain(own)).then(|| (LaidPart { darts: count, stop: None, ..best.0 }, best.1))
 }
 
 /// The axis of a round part, and the vertex at its pole, which is a new one where there was none.
-fn with_pole(sheet: &mut Sheet, number: usize) -> Option<(Round, u32)> {
+fn with_pole(sheet: &mut CutFaces, number: usize) -> Option<(Round, u32)> {
     let part = sheet.parts().into_iter().nth(number)?;
     let round = Round::of(&part.surface, &Web::new(&part.surface))?;
     if round.evenness < ROUND {
@@ -80,13 +85,13 @@ fn with_pole(sheet: &mut Sheet, number: usize) -> Option<(Round, u32)> {
 }
 
 /// Draws so many darts that end at a share of the way from the pole to the rim.
-fn draw_darts(sheet: &mut Sheet, number: usize, round: &Round, pole: u32, [count, tip]: [f64; 2]) -> Option<()> {
+fn draw_darts(sheet: &mut CutFaces, number: usize, round: &Round, pole: u32, [count, tip]: [f64; 2]) -> Option<()> {
     for k in 0..count as usize {
         let part = sheet.parts().into_iter().nth(number)?;
         let web = Web::new(&part.surface);
         let pole = local(&part, pole)?;
         let line = round.meridian(&part.surface, &web, &[pole], k, count as usize)?;
-        let line: Vec<Spot> = line.into_iter().rev().collect();
+        let line: Vec<SurfacePoint> = line.into_iter().rev().collect();
         let dart = begun(&part.surface, &web, &line, (1.0 - tip) * length(&part.surface, &line));
         sheet.draw(&part, &dart);
     }
@@ -94,6 +99,6 @@ fn draw_darts(sheet: &mut Sheet, number: usize, round: &Round, pole: u32, [count
 }
 
 /// The vertex of a part that is this one of the file.
-pub(super) fn local(part: &Part, vertex: u32) -> Option<u32> {
+pub(super) fn local(part: &SurfacePart, vertex: u32) -> Option<u32> {
     part.vertices.iter().position(|&v| v == vertex).map(|k| k as u32)
 }

@@ -1,16 +1,12 @@
 //! The surface as the form that its garment is sewn on: its rims closed, and every piece placed beside it.
 
-use std::fmt::Write as _;
-
 use nalgebra::Rotation3;
 
 use super::FlatSurface;
 use super::mend::{AT_ONE_PLACE, Weld};
 use crate::geometry::{MM, Mat3, TriMesh, Vec3, rim_loops};
+use crate::io::obj_text::ObjText;
 use crate::pattern::PlaceFile;
-
-/// The surface with its rims closed.
-pub const FORM_OBJ: &str = "form.obj";
 
 /// A closed surface is a form where it has this share of a ball's volume, squared, as 36π V² / S³: a flat panel closed
 /// over its rim has next to none, and a tube twenty times as long as it is thick a fifth.
@@ -90,14 +86,11 @@ fn nearest_turn(from: &[Vec3], to: &[Vec3]) -> Rotation3<f64> {
 
 /// A form as a file, millimetres.
 pub(super) fn form_obj(form: &TriMesh) -> String {
-    let mut out = format!("# toile {}: the surface with its rims closed, millimetres\n", env!("CARGO_PKG_VERSION"));
-    for p in form.vertices.iter().map(|p| p * MM) {
-        let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
-    }
-    for [a, b, c] in form.triangles.iter().map(|t| t.map(|v| v + 1)) {
-        let _ = writeln!(out, "f {a} {b} {c}");
-    }
-    out
+    let mut obj = ObjText::exact();
+    obj.comment(format_args!("toile {}: the surface with its rims closed, millimetres", env!("CARGO_PKG_VERSION")));
+    form.vertices.iter().for_each(|p| obj.vertex(&(p * MM)));
+    form.triangles.iter().for_each(|t| obj.face(*t));
+    obj.into_text()
 }
 
 #[cfg(test)]

@@ -2,12 +2,13 @@
 
 use super::super::error::PipelineError;
 use super::FlatSurface;
-use super::darts::Laid;
-use super::edges::NamedEdge;
-use super::form::{ClosedForm, FORM_OBJ};
+use super::darts::LaidPart;
+use super::edges::PartRimEdge;
+use super::form::ClosedForm;
 use crate::geometry::{Cubic, MM, Vec2, smooth_curves};
 use crate::input::LengthUnit;
 use crate::io::garment::write;
+use crate::io::result_names::FORM_OBJ;
 use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
 
 /// The fabric of a garment that was drawn as a surface, until its maker names another.
@@ -128,7 +129,7 @@ impl FlatSurface {
 
     fn piece_file(&self, k: usize, name: &str, smooth: bool) -> PieceFile {
         let outline = self.outline_of(k);
-        let own: Vec<&NamedEdge> = self.edges[k].iter().filter(|e| e.ring == outline).collect();
+        let own: Vec<&PartRimEdge> = self.edges[k].iter().filter(|e| e.ring == outline).collect();
         let point = |v: u32| {
             let p = self.place(k, v);
             [rounded(p.x), rounded(p.y)]
@@ -140,7 +141,7 @@ impl FlatSurface {
             };
             vertices.iter().map(line).collect::<Vec<_>>().join(" ")
         };
-        let drawn = |e: &NamedEdge| match (smooth, &e.title) {
+        let drawn = |e: &PartRimEdge| match (smooth, &e.title) {
             (false, _) => path(&e.vertices[1..]),
             (true, Some(_)) => self.curves(k, e),
             // Near the tip the legs of a dart are nearer to each other than either is to its straight line.
@@ -176,7 +177,7 @@ impl FlatSurface {
     }
 
     /// An edge as few smooth curves through its vertices.
-    fn curves(&self, k: usize, edge: &NamedEdge) -> String {
+    fn curves(&self, k: usize, edge: &PartRimEdge) -> String {
         let points: Vec<Vec2> = edge.vertices.iter().map(|&v| self.place(k, v)).collect();
         let straight =
             |c: &Cubic| distance_to_chord(c[1], [c[0], c[3]]).max(distance_to_chord(c[2], [c[0], c[3]])) < SMOOTH;
@@ -189,7 +190,7 @@ impl FlatSurface {
 
     /// The middle of the box round a piece, mm.
     fn grain_middle(&self, k: usize) -> [f64; 2] {
-        let Laid { flat, .. } = &self.laid[k];
+        let LaidPart { flat, .. } = &self.laid[k];
         let (low, high) = flat
             .positions
             .iter()
@@ -201,7 +202,7 @@ impl FlatSurface {
     }
 
     /// The notch of an edge that is sewn, at the vertex that it shares with its partner.
-    fn notch_file(&self, k: usize, edge: &NamedEdge) -> Option<(Located<String>, Vec<Located<NotchFile>>)> {
+    fn notch_file(&self, k: usize, edge: &PartRimEdge) -> Option<(Located<String>, Vec<Located<NotchFile>>)> {
         let index = self.edges[k].iter().position(|e| std::ptr::eq(e, edge))?;
         edge.partner.filter(|_| edge.vertices.len() > 2)?;
         let middle = edge.middle([k, index]);
@@ -228,7 +229,7 @@ impl FlatSurface {
             let mut holes: Vec<usize> = Vec::new();
             for (e, edge) in edges.iter().enumerate() {
                 let full =
-                    |piece: usize, edge: &NamedEdge| at_no_place(format!("{}.{}", names[piece], edge_name(edge)));
+                    |piece: usize, edge: &PartRimEdge| at_no_place(format!("{}.{}", names[piece], edge_name(edge)));
                 let sewn = edge.partner.filter(|[q, f]| self.edges[*q][*f].ring == outlines[*q]);
                 if edge.ring != outlines[p] {
                     if !holes.contains(&edge.ring) {
@@ -253,7 +254,7 @@ impl FlatSurface {
 }
 
 /// A name of an edge that a garment file takes: a number alone is none.
-fn edge_name(edge: &NamedEdge) -> String {
+fn edge_name(edge: &PartRimEdge) -> String {
     if let Some(title) = &edge.title {
         return title.clone();
     }

@@ -2,18 +2,22 @@
 
 use super::super::error::PipelineError;
 use super::cuts::straight;
-use super::darts::Source;
+use super::darts::LayingInput;
 use super::even::local;
-use super::parts::Part;
+use super::parts::SurfacePart;
 use super::report::CutWhy;
-use super::sheet::Sheet;
+use super::sheet::CutFaces;
 use crate::flatten::line::Web;
 use crate::flatten::round::Round;
 use crate::flatten::{Solid, shortest_path};
 use crate::geometry::{Vec3, nearest_on_segment, rim_loops};
 
 /// Cuts every part into so many gores or panels; notes on those that have no such form.
-pub(super) fn cut_gores(source: &Source<'_>, sheet: &mut Sheet, count: usize) -> Result<Vec<String>, PipelineError> {
+pub(super) fn cut_gores(
+    source: &LayingInput<'_>,
+    sheet: &mut CutFaces,
+    count: usize,
+) -> Result<Vec<String>, PipelineError> {
     let mut notes = Vec::new();
     let parts = sheet.parts();
     let (all, mut done) = (parts.len(), 0);
@@ -40,7 +44,7 @@ pub(super) fn cut_gores(source: &Source<'_>, sheet: &mut Sheet, count: usize) ->
 }
 
 /// Draws the lines between the gores of a part, whatever its form is; `None` where it has none.
-pub(super) fn draw_gores(sheet: &mut Sheet, number: usize, count: usize) -> Option<()> {
+pub(super) fn draw_gores(sheet: &mut CutFaces, number: usize, count: usize) -> Option<()> {
     let part = sheet.parts().into_iter().nth(number)?;
     part.turned.as_ref()?;
     match rim_loops(&part.surface.triangles).len() {
@@ -51,7 +55,7 @@ pub(super) fn draw_gores(sheet: &mut Sheet, number: usize, count: usize) -> Opti
 }
 
 /// Lines from the pole of a part to its rim, or to the opposite pole.
-fn meridians(sheet: &mut Sheet, part: &Part, number: usize, count: usize) -> Option<()> {
+fn meridians(sheet: &mut CutFaces, part: &SurfacePart, number: usize, count: usize) -> Option<()> {
     let round = Round::of(&part.surface, &Web::new(&part.surface))?;
     let poles: Vec<u32> = sheet.split(part, &round.poles);
     for k in 0..count {
@@ -65,7 +69,7 @@ fn meridians(sheet: &mut Sheet, part: &Part, number: usize, count: usize) -> Opt
 }
 
 /// Straight lines between even points of two rims.
-fn panels(sheet: &mut Sheet, number: usize, count: usize) -> Option<()> {
+fn panels(sheet: &mut CutFaces, number: usize, count: usize) -> Option<()> {
     let part = sheet.parts().into_iter().nth(number)?;
     let rims = rim_loops(&part.surface.triangles);
     let places = |rim: &[u32]| -> Vec<Vec3> { rim.iter().map(|&v| part.surface.vertices[v as usize]).collect() };
@@ -106,7 +110,7 @@ fn even_places(rim: &[Vec3], first: usize, count: usize) -> Vec<Vec3> {
 }
 
 /// The vertex of the rim of a part at a place, a new one where there is none.
-fn rim_vertex(sheet: &mut Sheet, number: usize, place: Vec3) -> Option<u32> {
+fn rim_vertex(sheet: &mut CutFaces, number: usize, place: Vec3) -> Option<u32> {
     let part = sheet.parts().into_iter().nth(number)?;
     let web = Web::new(&part.surface);
     let at = |v: u32| part.surface.vertices[v as usize];

@@ -25,9 +25,9 @@ use std::time::Instant;
 
 use super::error::PipelineError;
 use crate::fabric::{Fabric, TensileCurve};
-use crate::flatten::{Options, Report};
+use crate::flatten::{FlatReport, FlattenOptions};
 use crate::geometry::Vec3;
-use crate::input::LengthUnit;
+use crate::input::{LengthUnit, stem};
 use crate::io::obj_read::{ObjError, ObjFaces};
 use crate::io::surface_read::read_surface;
 use crate::report::Stage;
@@ -35,28 +35,27 @@ use apart::laid_apart;
 pub use cuts::Cuts;
 use cuts::{cut_as_asked, cut_open, cut_sharp};
 pub use darts::DartStop;
-use darts::{Failed, Laid, Outcome, Source};
+use darts::{Failed, LaidPart, LaidSurface, LayingInput};
 use drawn::cut_drawn;
 pub use ease::{Ease, EaseReport};
-use edges::{NamedEdge, named_edges};
-pub use form::FORM_OBJ;
+use edges::{PartRimEdge, named_edges};
 use gores::cut_gores;
 pub use mend::Weld;
 use mend::{AT_ONE_PLACE, mend, welded, welded_note};
 pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, HalvingReport, PartReport, SurfaceReport};
-use sheet::Sheet;
+use sheet::CutFaces;
 use simplify::simplify;
 use size::Space;
 use thick::leave_outer_sides;
-pub use write::{FLAT_OBJ, FLAT_PNG, FlatCorners, OUTLINE_SVG};
+pub use write::FlatCorners;
 
 /// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
 /// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
 const BEYOND_WEAVES: f64 = 0.5;
 /// No weave changes its area by more without stretched threads: sheared by 30° it has cos 30° of it.
 const BEYOND_SHEAR: f64 = 0.134;
-/// Darts that `auto` cuts: into a round part, and into all the others together. What is not below the limit then needs
-/// a seam.
+/// Darts that `auto` cuts: into a round part, and into all the others together. A part that is then not below the limit
+/// needs a seam.
 pub const DARTS: usize = 8;
 
 /// Darts after which no more are cut, however many are needed: their allowances would be all that is left.
@@ -113,7 +112,7 @@ pub struct SurfaceOptions {
     /// Limit that 99 % of a piece's area should stay below.
     pub limit: Limit,
     /// How to flatten.
-    pub flatten: Options,
+    pub flatten: FlattenOptions,
 }
 
 impl Default for SurfaceOptions {
@@ -131,7 +130,7 @@ impl Default for SurfaceOptions {
             darts: None,
             ease: Ease::default(),
             limit: Limit::Strain(0.1),
-            flatten: Options::default(),
+            flatten: FlattenOptions::default(),
         }
     }
 }
@@ -141,8 +140,8 @@ impl Default for SurfaceOptions {
 pub enum Limit {
     /// This |stretch − 1| in any direction.
     Strain(f64),
-    /// What the threads of a fabric give under 100 gf/cm, the load at which the FAST test reads how far cloth can be
-    /// worked; the angle between them is free.
+    /// The strains that the threads of a fabric reach under 100 gf/cm, the load at which the FAST test reads how far
+    /// cloth can be worked. The angle between the threads is free.
     Fabric {
         /// Its name.
         name: String,
@@ -164,7 +163,7 @@ impl Limit {
     }
 
     /// How much a piece is strained, 1 at the limit.
-    fn share(&self, piece: &Report) -> f64 {
+    fn share(&self, piece: &FlatReport) -> f64 {
         match self {
             Self::Strain(most) => piece.strain_p99 / most,
             Self::Fabric { warp, weft, .. } => (piece.threads.warp_p99 / warp).max(piece.threads.weft_p99 / weft),
@@ -173,7 +172,7 @@ impl Limit {
 
     /// Whether no hand lays a piece so without a cut or a dart: its cloth gives less under the full load of a tester
     /// or, where it is not known, than any weave does.
-    fn is_out_of_reach(&self, piece: &Report) -> bool {
+    fn is_out_of_reach(&self, piece: &FlatReport) -> bool {
         match self {
             Self::Strain(_) => {
                 let change = (piece.area_after / piece.area_before - 1.0).abs();
@@ -184,19 +183,19 @@ impl Limit {
     }
 
     /// Whether a piece is strained more.
-    pub fn passed(&self, piece: &Report) -> bool {
+    pub fn passed(&self, piece: &FlatReport) -> bool {
         self.share(piece) > 1.0
     }
 }
 
 /// A surface laid flat.
 pub struct FlatSurface {
-    sheet: Sheet,
-    laid: Vec<Laid>,
+    sheet: CutFaces,
+    laid: Vec<LaidPart>,
     failed: Vec<Failed>,
     ease: Ease,
     /// Of every part that is laid flat.
-    edges: Vec<Vec<NamedEdge>>,
+    edges: Vec<Vec<PartRimEdge>>,
     /// The errors it leaves in the cloth.
     pub report: SurfaceReport,
     /// Notes on input that its author may not have meant as it was read: one sentence each.
@@ -221,7 +220,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     if !options.groups {
         faces.join_groups();
     }
-    let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let stem = stem(file);
     let begin = Instant::now();
     let mut notes = Vec::new();
     let unit = options.unit.unwrap_or_else(|| {
@@ -243,9 +242,9 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     if let Some(tolerance) = options.simplify {
         notes.push(simplify(&mut faces, &same, space.metres, tolerance));
     }
-    let source = Source { file, options };
+    let source = LayingInput { file, options };
     notes.extend(welded_note(&faces, options.weld, &same));
-    let mut sheet = Sheet::new(faces, same, textured, space, &stem);
+    let mut sheet = CutFaces::new(faces, same, textured, space, &stem);
     let as_read = sheet.parts();
     notes.extend(split_notes(&sheet, options.weld, as_read.len()));
     cut_as_asked(&source, &mut sheet, as_read)?;
@@ -259,7 +258,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     if options.cuts.auto {
         cut_open(&mut sheet, None);
     }
-    let Outcome { laid, mut failed } = laid_apart(&source, &mut sheet)?;
+    let LaidSurface { laid, mut failed } = laid_apart(&source, &mut sheet)?;
     if laid.is_empty() && !failed.is_empty() {
         return Err(failed.swap_remove(0).error);
     }
@@ -284,7 +283,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
 }
 
 /// Why the surface is in `count` parts before it is cut, where its author may have meant fewer.
-fn split_notes(sheet: &Sheet, weld: Weld, count: usize) -> Vec<String> {
+fn split_notes(sheet: &CutFaces, weld: Weld, count: usize) -> Vec<String> {
     let all = || sheet.welded_within(Weld::Within(AT_ONE_PLACE));
     let parts = |textured: bool, same: Vec<u32>| sheet.read_as(textured, same).parts().len();
     let mut notes = Vec::new();
@@ -298,7 +297,7 @@ fn split_notes(sheet: &Sheet, weld: Weld, count: usize) -> Vec<String> {
 }
 
 /// The stage that laid pieces with these figures flat.
-pub(super) fn stage(reports: impl Iterator<Item = Report> + Clone, begin: Instant) -> Stage {
+pub(super) fn stage(reports: impl Iterator<Item = FlatReport> + Clone, begin: Instant) -> Stage {
     Stage {
         name: "flatten".into(),
         seconds: begin.elapsed().as_secs_f64(),

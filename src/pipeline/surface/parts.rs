@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::sheet::Sheet;
+use super::sheet::CutFaces;
 use super::size::Space;
 use crate::flatten::{FlattenError, Solid, orient};
 use crate::geometry::{DisjointSets, TriMesh, Vec3, diagonals_of, sorted_pair, triangles_of};
@@ -14,7 +14,7 @@ use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
 #[derive(Clone)]
-pub(super) struct Part {
+pub(super) struct SurfacePart {
     pub(super) name: String,
     /// The file's vertex of every vertex.
     pub(super) vertices: Vec<u32>,
@@ -91,12 +91,12 @@ fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 }
 
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
-pub(super) fn parts(sheet: &Sheet, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<Part> {
-    let Sheet { faces, nodes, origin, .. } = sheet;
+pub(super) fn parts(sheet: &CutFaces, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<SurfacePart> {
+    let CutFaces { faces, nodes, origin, .. } = sheet;
     let fans = Fans::new(nodes, cuts);
-    let source = Source { faces, nodes, origin, fans: &fans, space };
+    let source = PartSource { faces, nodes, origin, fans: &fans, space };
     let mut local = vec![0; fans.of_corner.len()];
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<SurfacePart> = Vec::new();
     let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
     sheet.order().into_iter().for_each(|f| of_group[faces.group_of_face[f as usize] as usize].push(f));
     for (group, own) in faces.groups.iter().zip(of_group) {
@@ -111,7 +111,7 @@ pub(super) fn parts(sheet: &Sheet, cuts: &HashSet<[u32; 2]>, space: Space, stem:
         let several = split.len() > 1;
         for (k, own) in split.into_iter().enumerate() {
             let name = if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
-            parts.push(Part::new(&source, name, own, &mut local));
+            parts.push(SurfacePart::new(&source, name, own, &mut local));
         }
     }
     parts
@@ -119,7 +119,7 @@ pub(super) fn parts(sheet: &Sheet, cuts: &HashSet<[u32; 2]>, space: Space, stem:
 
 /// The faces and groups that parts are made from.
 #[derive(Clone, Copy)]
-struct Source<'a> {
+struct PartSource<'a> {
     faces: &'a ObjFaces,
     nodes: &'a Nodes,
     origin: &'a [u32],
@@ -169,10 +169,10 @@ impl Fans {
     }
 }
 
-impl Part {
+impl SurfacePart {
     /// `local` has room for every fan; a part uses its own places only.
-    fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
-        let Source { faces, nodes, origin, fans, space } = *source;
+    fn new(source: &PartSource<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
+        let PartSource { faces, nodes, origin, fans, space } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
         let mut all: Vec<(u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];

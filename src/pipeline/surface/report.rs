@@ -7,9 +7,9 @@ use serde::Serialize;
 use super::super::error::PipelineError;
 use super::SurfaceOptions;
 use super::cuts;
-use super::darts::{DartStop, Failed, Laid};
+use super::darts::{DartStop, Failed, LaidPart};
 use super::ease::{Ease, EaseReport};
-use super::edges::NamedEdge;
+use super::edges::PartRimEdge;
 use crate::flatten::FlattenError;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
@@ -167,9 +167,9 @@ pub struct EdgeReport {
 }
 
 /// All parts as they are reported, with their edges.
-pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>], options: &SurfaceOptions) -> Vec<PartReport> {
-    let partner = |e: &NamedEdge| e.partner.map(|[p, e]| format!("{}.{}", laid[p].part.name, edges[p][e].name));
-    let piece = |(k, own): (usize, &Laid)| {
+pub(super) fn pieces(laid: &[LaidPart], edges: &[Vec<PartRimEdge>], options: &SurfaceOptions) -> Vec<PartReport> {
+    let partner = |e: &PartRimEdge| e.partner.map(|[p, e]| format!("{}.{}", laid[p].part.name, edges[p][e].name));
+    let piece = |(k, own): (usize, &LaidPart)| {
         let edges: Vec<EdgeReport> = edges[k].iter().map(|e| edge(own, e, partner(e), options.ease)).collect();
         let boundary_cut = edges.iter().map(|edge| edge.length_cut).sum();
         PartReport { edges, boundary_cut, ..PartReport::new(own, options) }
@@ -178,7 +178,7 @@ pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>], options: &SurfaceO
 }
 
 /// An edge of a part as it is reported.
-fn edge(own: &Laid, edge: &NamedEdge, sewn_to: Option<String>, ease: Ease) -> EdgeReport {
+fn edge(own: &LaidPart, edge: &PartRimEdge, sewn_to: Option<String>, ease: Ease) -> EdgeReport {
     let (part, flat, vertices) = (&own.part, &own.flat.positions, &edge.vertices);
     let ends = [vertices[0], vertices[vertices.len() - 1]].map(|v| part.number(v));
     let pairs = || vertices.windows(2).map(|w| [w[0] as usize, w[1] as usize]);
@@ -284,7 +284,7 @@ pub struct DartReport {
 }
 
 impl PartReport {
-    fn new(laid: &Laid, options: &SurfaceOptions) -> Self {
+    fn new(laid: &LaidPart, options: &SurfaceOptions) -> Self {
         let (part, r) = (&laid.part, &laid.flat.report);
         let out_of_reach = options.limit.is_out_of_reach(r);
         let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };

@@ -3,16 +3,16 @@
 use std::collections::HashSet;
 
 use super::mend::{Weld, welded};
-use super::parts::{Nodes, Part, parts};
+use super::parts::{Nodes, SurfacePart, parts};
 use super::report::{CutReport, CutWhy};
 use super::size::Space;
-use crate::flatten::line::{self, Spot};
+use crate::flatten::line::{self, SurfacePoint};
 use crate::geometry::{MM, Vec3, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
 /// Faces, the lines along which they are split, and those of them that are cut open.
 #[derive(Clone)]
-pub(super) struct Sheet {
+pub(super) struct CutFaces {
     /// The file's faces, then those that faces were split into; a face that was split has no corners any more.
     pub(super) faces: ObjFaces,
     /// The face of the file that every face is of.
@@ -35,7 +35,7 @@ pub(super) struct Sheet {
     planned: Vec<(String, Vec<u32>)>,
 }
 
-impl Sheet {
+impl CutFaces {
     /// The surface as it was read.
     pub(super) fn new(mut faces: ObjFaces, same: Vec<u32>, textured: bool, space: Space, stem: &str) -> Self {
         faces.texture_of_face.resize(faces.faces.len(), Vec::new());
@@ -64,7 +64,7 @@ impl Sheet {
     }
 
     /// Its parts, in the order of their first faces.
-    pub(super) fn parts(&self) -> Vec<Part> {
+    pub(super) fn parts(&self) -> Vec<SurfacePart> {
         parts(self, &self.nodes.edges_on(&self.edges), self.space, &self.stem)
     }
 
@@ -85,7 +85,7 @@ impl Sheet {
     }
 
     /// Cuts a part along a line.
-    pub(super) fn cut(&mut self, part: &Part, line: &[Spot], why: CutWhy) {
+    pub(super) fn cut(&mut self, part: &SurfacePart, line: &[SurfacePoint], why: CutWhy) {
         if line.len() > 1 {
             let length = line::length(&part.surface, line) * MM;
             let chain = self.split(part, line);
@@ -94,7 +94,7 @@ impl Sheet {
     }
 
     /// Splits the faces along a line of a part, which is cut when [`Self::cut_planned`] is called.
-    pub(super) fn draw(&mut self, part: &Part, line: &[Spot]) {
+    pub(super) fn draw(&mut self, part: &SurfacePart, line: &[SurfacePoint]) {
         let chain = self.split(part, line);
         self.plan(part.name.clone(), chain);
     }

@@ -6,9 +6,9 @@
 use std::collections::HashMap;
 
 use super::mend::leave_out;
-use super::parts::{Nodes, Part};
-use super::sheet::Sheet;
-use crate::flatten::line::Spot;
+use super::parts::{Nodes, SurfacePart};
+use super::sheet::CutFaces;
+use crate::flatten::line::SurfacePoint;
 use crate::geometry::{Vec3, sorted_pair, triangles_of};
 
 /// A new vertex on an edge, and the share of the way to it from the smaller end.
@@ -19,7 +19,7 @@ struct OnEdge {
 }
 
 /// A new vertex inside a triangle of a face.
-struct Inside {
+struct InnerVertex {
     face: u32,
     /// The number of the triangle among those of the face.
     triangle: usize,
@@ -29,7 +29,7 @@ struct Inside {
 
 /// A corner of a piece of a face.
 #[derive(Clone, Copy, PartialEq)]
-enum Corner {
+enum SplitCorner {
     /// A corner of the face.
     Own(usize),
     /// The new vertex between two of its corners.
@@ -42,12 +42,12 @@ enum Corner {
 #[derive(Default)]
 struct Added {
     on_edge: HashMap<[u32; 2], OnEdge>,
-    inside: Vec<Inside>,
+    inside: Vec<InnerVertex>,
 }
 
-impl Sheet {
+impl CutFaces {
     /// Splits the faces that a line of a part crosses; the line's vertices.
-    pub(super) fn split(&mut self, part: &Part, line: &[Spot]) -> Vec<u32> {
+    pub(super) fn split(&mut self, part: &SurfacePart, line: &[SurfacePoint]) -> Vec<u32> {
         let mut added = Added::default();
         let chain = line.iter().map(|spot| self.vertex_at(part, spot, &mut added)).collect();
         if !added.on_edge.is_empty() || !added.inside.is_empty() {
@@ -63,10 +63,10 @@ impl Sheet {
     }
 
     /// The vertex at a spot, a new one where there is none.
-    fn vertex_at(&mut self, part: &Part, spot: &Spot, added: &mut Added) -> u32 {
+    fn vertex_at(&mut self, part: &SurfacePart, spot: &SurfacePoint, added: &mut Added) -> u32 {
         match *spot {
-            Spot::Vertex(v) => part.vertices[v as usize],
-            Spot::Edge { ends, at } => {
+            SurfacePoint::Vertex(v) => part.vertices[v as usize],
+            SurfacePoint::Edge { ends, at } => {
                 let [a, b] = ends.map(|v| part.vertices[v as usize]);
                 let (edge, at) = if a < b { ([a, b], at) } else { ([b, a], 1.0 - at) };
                 if let Some(on) = added.on_edge.get(&edge) {
@@ -77,12 +77,12 @@ impl Sheet {
                 added.on_edge.insert(edge, OnEdge { vertex, at });
                 vertex
             }
-            Spot::Face { triangle, weights } => {
+            SurfacePoint::Face { triangle, weights } => {
                 let corners = part.surface.triangles[triangle as usize].map(|v| part.vertices[v as usize]);
                 let sum: Vec3 = corners.iter().zip(weights).map(|(&v, w)| self.faces.vertices[v as usize] * w).sum();
                 let vertex = self.add(sum);
                 let (face, triangle, weights) = part.in_face(triangle as usize, weights);
-                added.inside.push(Inside { face, triangle, vertex, weights });
+                added.inside.push(InnerVertex { face, triangle, vertex, weights });
                 vertex
             }
         }
@@ -115,26 +115,26 @@ impl Sheet {
         let stands = |k: usize| self.same[corners[k] as usize];
         let on = |a: usize, b: usize| added.on_edge.get(&sorted_pair([stands(a), stands(b)])).copied();
         let inside = |t: usize| added.inside.iter().find(|i| i.face as usize == f && i.triangle == t);
-        let mut pieces: Vec<(usize, [Corner; 3])> = Vec::new();
+        let mut pieces: Vec<(usize, [SplitCorner; 3])> = Vec::new();
         for (t, &triangle) in triangles.iter().enumerate() {
             let sides = [0, 1, 2].map(|k| on(triangle[k], triangle[(k + 1) % 3]).is_some());
-            let place = |corner: Corner| match corner {
-                Corner::Own(k) => places[k],
-                Corner::Between(a, b) => {
+            let place = |corner: SplitCorner| match corner {
+                SplitCorner::Own(k) => places[k],
+                SplitCorner::Between(a, b) => {
                     let (low, high) = if stands(a) < stands(b) { (a, b) } else { (b, a) };
                     places[low].lerp(&places[high], on(a, b).map_or(0.5, |on| on.at))
                 }
-                Corner::Inner => triangle.iter().map(|&k| places[k]).sum::<Vec3>() / 3.0,
+                SplitCorner::Inner => triangle.iter().map(|&k| places[k]).sum::<Vec3>() / 3.0,
             };
             pieces.extend(pieces_of(triangle, sides, inside(t).is_some(), place).into_iter().map(|piece| (t, piece)));
         }
         if pieces.len() == triangles.len() {
             return;
         }
-        let vertex = |t: usize, corner: Corner| match corner {
-            Corner::Own(k) => corners[k],
-            Corner::Between(a, b) => on(a, b).map_or(corners[a], |on| on.vertex),
-            Corner::Inner => inside(t).map_or(corners[0], |inside| inside.vertex),
+        let vertex = |t: usize, corner: SplitCorner| match corner {
+            SplitCorner::Own(k) => corners[k],
+            SplitCorner::Between(a, b) => on(a, b).map_or(corners[a], |on| on.vertex),
+            SplitCorner::Inner => inside(t).map_or(corners[0], |inside| inside.vertex),
         };
         let faces: Vec<Vec<u32>> =
             pieces.iter().map(|(t, piece)| piece.iter().map(|&c| vertex(*t, c)).collect()).collect();
@@ -155,7 +155,7 @@ impl Sheet {
         &mut self,
         f: usize,
         triangles: &[[usize; 3]],
-        pieces: &[(usize, [Corner; 3])],
+        pieces: &[(usize, [SplitCorner; 3])],
         added: &Added,
     ) -> Vec<Vec<u32>> {
         let own = self.faces.texture_of_face.get(f).cloned().unwrap_or_default();
@@ -170,16 +170,16 @@ impl Sheet {
                 let at = |k: usize| self.faces.texture[own[k] as usize];
                 let stands = |k: usize| self.same[corners[k] as usize];
                 let new = match *corner {
-                    Corner::Own(k) => {
+                    SplitCorner::Own(k) => {
                         of_piece.push(own[k]);
                         continue;
                     }
-                    Corner::Between(a, b) => {
+                    SplitCorner::Between(a, b) => {
                         let (low, high) = if stands(a) < stands(b) { (a, b) } else { (b, a) };
                         let share = added.on_edge.get(&[stands(low), stands(high)]).map_or(0.5, |on| on.at);
                         [0, 1].map(|i| at(low)[i] + (at(high)[i] - at(low)[i]) * share)
                     }
-                    Corner::Inner => {
+                    SplitCorner::Inner => {
                         let inside = added.inside.iter().find(|i| i.face as usize == f && i.triangle == *t);
                         let weights = inside.map_or([1.0 / 3.0; 3], |inside| inside.weights);
                         let sum = |i: usize| triangles[*t].iter().zip(weights).map(|(&k, w)| at(k)[i] * w).sum();
@@ -197,13 +197,18 @@ impl Sheet {
 
 /// The pieces of a triangle with new vertices on some of its sides (side k runs from corner k to the next) and perhaps
 /// one inside, which they all meet in.
-fn pieces_of(triangle: [usize; 3], sides: [bool; 3], inside: bool, place: impl Fn(Corner) -> Vec3) -> Vec<[Corner; 3]> {
-    let own = triangle.map(Corner::Own);
-    let between = [0, 1, 2].map(|k| Corner::Between(triangle[k], triangle[(k + 1) % 3]));
+fn pieces_of(
+    triangle: [usize; 3],
+    sides: [bool; 3],
+    inside: bool,
+    place: impl Fn(SplitCorner) -> Vec3,
+) -> Vec<[SplitCorner; 3]> {
+    let own = triangle.map(SplitCorner::Own);
+    let between = [0, 1, 2].map(|k| SplitCorner::Between(triangle[k], triangle[(k + 1) % 3]));
     if inside {
         let all = (0..3).flat_map(|k| [Some(own[k]), sides[k].then_some(between[k])]);
-        let rim: Vec<Corner> = all.flatten().collect();
-        return (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], Corner::Inner]).collect();
+        let rim: Vec<SplitCorner> = all.flatten().collect();
+        return (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], SplitCorner::Inner]).collect();
     }
     match sides.iter().filter(|side| **side).count() {
         0 => vec![own],
@@ -217,7 +222,7 @@ fn pieces_of(triangle: [usize; 3], sides: [bool; 3], inside: bool, place: impl F
             let whole = sides.iter().position(|side| !*side).unwrap_or(0);
             let (b, c, a) = (own[whole], own[(whole + 1) % 3], own[(whole + 2) % 3]);
             let (on_ca, on_ab) = (between[(whole + 1) % 3], between[(whole + 2) % 3]);
-            let length = |p: Corner, q: Corner| (place(q) - place(p)).norm();
+            let length = |p: SplitCorner, q: SplitCorner| (place(q) - place(p)).norm();
             let tip = [a, on_ab, on_ca];
             if length(on_ab, c) < length(b, on_ca) {
                 vec![tip, [on_ab, b, c], [on_ab, c, on_ca]]

@@ -45,7 +45,7 @@ struct Solid {
     sides: Vec<SharedSide>,
 }
 
-struct Sheet {
+struct OneSide {
     /// In the file's unit.
     thickness: f64,
     left_out: Vec<usize>,
@@ -99,7 +99,7 @@ fn normal(faces: &ObjFaces, f: usize) -> Vec3 {
 
 impl Solid {
     /// The faces that are left out where this is a sheet: all but its outer side, the larger one.
-    fn as_sheet(&self, faces: &ObjFaces, same: &[u32]) -> Option<Sheet> {
+    fn as_sheet(&self, faces: &ObjFaces, same: &[u32]) -> Option<OneSide> {
         let mut patches = DisjointSets::new(faces.faces.len());
         for (_, [(f, along), (g, other)]) in &self.sides {
             let (n, m) = (normal(faces, *f), normal(faces, *g));
@@ -128,7 +128,7 @@ impl Solid {
         let is_sheet = inner > INNER * area && area + inner > SIDES * total;
         let is_thin = thickness > 0.0 && thickness < THIN * area.sqrt();
         let mut left_out = || self.faces.iter().copied().filter(|&f| patches.root(f as u32) != outer).collect();
-        (is_sheet && is_thin && largest.len() > 2).then(|| Sheet { thickness, left_out: left_out() })
+        (is_sheet && is_thin && largest.len() > 2).then(|| OneSide { thickness, left_out: left_out() })
     }
 }
 

@@ -1,28 +1,20 @@
 //! The files of a flattened surface.
 
-use std::fmt::Write as _;
-
 use super::super::error::PipelineError;
-use super::super::results::{GARMENT_YAML, PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
+use super::super::results::{ResultFile, json_text};
 use super::FlatSurface;
-use super::darts::Laid;
-use super::edges::NamedEdge;
-use super::form::{FORM_OBJ, form_obj};
-use super::parts::Part;
+use super::darts::LaidPart;
+use super::edges::PartRimEdge;
+use super::form::form_obj;
+use super::parts::SurfacePart;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
+use crate::io::obj_text::{ObjCorner, ObjText};
+use crate::io::result_names::{FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON};
 use crate::io::svg_write::{outline_svg, pattern_svg};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::{EdgeId, Notch};
 use crate::picture::draw_flat;
-
-/// The surface as read, with flat texture coordinates.
-pub const FLAT_OBJ: &str = "flat.obj";
-/// The flat pieces coloured by strain.
-pub const FLAT_PNG: &str = "flat.png";
-
-/// The outlines as smooth curves.
-pub const OUTLINE_SVG: &str = "outline.svg";
 
 /// A face laid flat.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,44 +59,33 @@ impl FlatSurface {
     /// The file's vertices and faces as they were, with flat texture coordinates in mm. Numbers are written so that
     /// they read back as the same.
     fn obj(&self) -> String {
-        let mut out = format!(
-            "# toile {}: {}; vt = flat position (x, -y), millimetres\n",
-            env!("CARGO_PKG_VERSION"),
-            self.report.surface
-        );
-        for p in &self.sheet.faces.vertices {
-            let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
-        }
+        let (version, surface) = (env!("CARGO_PKG_VERSION"), &self.report.surface);
+        let mut obj = ObjText::exact();
+        obj.comment(format_args!("toile {version}: {surface}; vt = flat position (x, -y), millimetres"));
+        self.sheet.faces.vertices.iter().for_each(|p| obj.vertex(p));
         let mut first = Vec::with_capacity(self.laid.len());
-        let mut written = 1;
+        let mut written = 0;
         for flat in self.laid.iter().map(|l| &l.flat.positions) {
             first.push(written);
             written += flat.len();
-            for p in flat.iter().map(|p| self.ease.cut(*p)) {
-                let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
-            }
+            flat.iter().for_each(|p| obj.texture(&(self.ease.cut(*p) * MM)));
         }
         let mut group = None;
         for FaceInPart { face, part, locals } in self.faces_in_parts() {
             if group != Some(part) {
-                let _ = writeln!(out, "g {}", self.part(part).name);
+                obj.group(&self.part(part).name);
                 group = Some(part);
             }
-            out.push('f');
-            for (&v, &local) in self.sheet.faces.faces[face].iter().zip(locals) {
-                // What could not be laid flat has no flat positions.
-                let _ = match first.get(part) {
-                    Some(first) => write!(out, " {}/{}", v + 1, first + local as usize),
-                    None => write!(out, " {}", v + 1),
-                };
-            }
-            out.push('\n');
+            // Parts that could not be laid flat have no flat positions.
+            let texture = |local: u32| first.get(part).map(|first| first + local as usize);
+            let corners = self.sheet.faces.faces[face].iter().zip(locals);
+            obj.face(corners.map(|(&v, &local)| ObjCorner { texture: texture(local), ..v.into() }));
         }
-        out
+        obj.into_text()
     }
 
     /// A part: those that are laid flat, then those that cannot be.
-    fn part(&self, k: usize) -> &Part {
+    fn part(&self, k: usize) -> &SurfacePart {
         self.laid.get(k).map_or_else(|| &self.failed[k - self.laid.len()].part, |laid| &laid.part)
     }
 
@@ -175,7 +156,7 @@ impl FlatSurface {
     /// The flat parts as the pieces of a cloth, each with its rims as edges.
     fn sheet(&self) -> ClothMesh {
         let mut cloth = ClothMesh::default();
-        for (k, Laid { part, flat, .. }) in self.laid.iter().enumerate() {
+        for (k, LaidPart { part, flat, .. }) in self.laid.iter().enumerate() {
             let (particle, triangle) = (cloth.flat.len(), cloth.triangles.len());
             cloth.flat.extend(flat.positions.iter().map(|p| self.ease.cut(*p)));
             cloth.triangles.extend(part.surface.triangles.iter().map(|t| t.map(|v| v + particle as u32)));
@@ -195,7 +176,7 @@ impl FlatSurface {
 }
 
 /// An edge as particles of the sheet.
-fn particles(piece: usize, index: usize, edge: &NamedEdge, first: u32) -> EdgeParticles {
+fn particles(piece: usize, index: usize, edge: &PartRimEdge, first: u32) -> EdgeParticles {
     EdgeParticles {
         edge: EdgeId { piece, ring: edge.ring, index },
         name: edge.name.clone(),

@@ -1,10 +1,10 @@
 //! The garment at every girth of the body.
 
-use super::places::{Place, places};
+use super::places::{GirthPlace, places};
 use super::{Girth, Pressure, State, mm, side};
 use crate::geometry::{KPA, Vec2, Vec3};
 use crate::mannequin::PartKind;
-use crate::verify::{CutPoint, Ring, ring};
+use crate::verify::{ClothRing, CutPoint, ring};
 
 /// Rows of the girths that the garment goes round.
 pub(super) fn girths(state: &State) -> Vec<Girth> {
@@ -17,7 +17,7 @@ const BELOW: f64 = 0.06;
 const STEP: f64 = 0.005;
 
 /// The ring that goes round the part alone, and the point that it goes round.
-fn own_ring(state: &State, place: &Place) -> Option<(Ring, Vec3)> {
+fn own_ring(state: &State, place: &GirthPlace) -> Option<(ClothRing, Vec3)> {
     let most = if place.kind == PartKind::Torso { (BELOW / STEP).round() as usize } else { 0 };
     for step in 0..=most {
         let center = place.center - place.axis * (step as f64 * STEP);
@@ -30,10 +30,10 @@ fn own_ring(state: &State, place: &Place) -> Option<(Ring, Vec3)> {
     None
 }
 
-fn girth(state: &State, place: &Place) -> Option<Girth> {
+fn girth(state: &State, place: &GirthPlace) -> Option<Girth> {
     let (ring, center) = own_ring(state, place)?;
     let garment = ring.length();
-    let pressed = state.pressure.as_deref().map(|pressure| Pressed::new(&ring, pressure));
+    let pressed = state.pressure.as_deref().map(|pressure| RingPressure::new(&ring, pressure));
     let pressure = pressed.as_ref().map(|p| Pressure { mean: KPA * p.mean, max: KPA * p.max });
     Some(Girth {
         name: place.name.clone(),
@@ -50,15 +50,15 @@ fn girth(state: &State, place: &Place) -> Option<Girth> {
 }
 
 /// Pressure round a ring, Pa.
-struct Pressed {
+struct RingPressure {
     mean: f64,
     max: f64,
     /// The place of the largest.
     hardest: Vec3,
 }
 
-impl Pressed {
-    fn new(ring: &Ring, pressure: &[f64]) -> Self {
+impl RingPressure {
+    fn new(ring: &ClothRing, pressure: &[f64]) -> Self {
         let at = |point: &CutPoint| {
             let [a, b] = point.ends.map(|v| pressure[v as usize]);
             a + (b - a) * point.share
@@ -81,7 +81,7 @@ impl Pressed {
 }
 
 /// Length of a ring's cloth as it was cut, metres. Gaps keep their width.
-fn flat_length(state: &State, ring: &Ring) -> f64 {
+fn flat_length(state: &State, ring: &ClothRing) -> f64 {
     let flat = |point: &CutPoint, triangle: u32| -> Option<Vec2> {
         let corners = state.welded.corners[triangle as usize];
         let particle = |v: u32| corners.into_iter().find(|&p| state.welded.vertex_of[p as usize] == v);
@@ -97,7 +97,7 @@ fn flat_length(state: &State, ring: &Ring) -> f64 {
 }
 
 /// Largest share of what the fabric gives that is used round a ring.
-fn used(state: &State, ring: &Ring) -> f64 {
+fn used(state: &State, ring: &ClothRing) -> f64 {
     let corners = ring.through.iter().flatten().flat_map(|&triangle| state.welded.corners[triangle as usize]);
     corners.map(|particle| state.used[particle as usize]).fold(0.0, f64::max)
 }

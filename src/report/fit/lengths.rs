@@ -1,6 +1,6 @@
 //! Lengths as worn: hems above the floor, sleeves against wrists, the crotch.
 
-use super::{Length, mm};
+use super::{WornLength, mm};
 use crate::geometry::Vec3;
 use crate::mannequin::{Mannequin, PartKind};
 use crate::report::schema::Worn;
@@ -11,19 +11,19 @@ use crate::verify::Welded;
 const HEMS: [&str; 4] = ["legs", "left leg", "right leg", "torso"];
 
 /// Where the openings are: hems above the floor, those of sleeves and legs also against wrists and ankles.
-pub(super) fn openings(worn: &[Worn], body: &Mannequin) -> Vec<Length> {
+pub(super) fn openings(worn: &[Worn], body: &Mannequin) -> Vec<WornLength> {
     let hems = hems(worn);
     let mut out = Vec::new();
     for (k, opening) in worn.iter().enumerate() {
         let name = opening.opening.clone();
         if hems.contains(&k) && body.floor().is_some() {
             let (against, level) = ("floor".into(), Some(opening.level));
-            out.push(Length { name: name.clone(), value: opening.height, against, level });
+            out.push(WornLength { name: name.clone(), value: opening.height, against, level });
         }
         if let (Some(past), Some(part)) = (opening.past_end, &opening.body_part) {
             let end = |limb: &str, end: &str| part.strip_suffix(limb).map(|side| format!("{side}{end}"));
             let against = end("arm", "wrist").or_else(|| end("leg", "ankle")).unwrap_or_else(|| part.clone());
-            out.push(Length { name, value: past, against, level: None });
+            out.push(WornLength { name, value: past, against, level: None });
         }
     }
     out
@@ -44,7 +44,7 @@ pub(in crate::report) fn hems(worn: &[Worn]) -> Vec<usize> {
 
 /// How far the crotch of a garment with two legs is above that of the body: both where the plane through the middle of
 /// the body cuts them lowest.
-pub(super) fn crotch(welded: &Welded, worn: &[Worn], body: &Mannequin) -> Option<Length> {
+pub(super) fn crotch(welded: &Welded, worn: &[Worn], body: &Mannequin) -> Option<WornLength> {
     let has = |part: &str| worn.iter().any(|w| w.body_part.as_deref() == Some(part));
     let torso = body.part(PartKind::Torso).filter(|_| has("left leg") && has("right leg"))?;
     let middle = torso.landmarks.iter().find(|(name, _)| name == "crotch")?.1;
@@ -58,7 +58,7 @@ pub(super) fn crotch(welded: &Welded, worn: &[Worn], body: &Mannequin) -> Option
         cut.reduce(f64::min)
     };
     let value = mm(low(&welded.surface)? - low(&body.mesh)?);
-    Some(Length { name: "crotch".into(), value, against: "crotch".into(), level: None })
+    Some(WornLength { name: "crotch".into(), value, against: "crotch".into(), level: None })
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ pub(super) use remarks::{loosest, tightest};
 use serde::{Deserialize, Serialize};
 
 use super::measure::Measured;
-use super::openings::Opening;
+use super::openings::SewnRim;
 use super::schema::Worn;
 use super::strain::thread_strains;
 use crate::geometry::{MM, Vec3};
@@ -28,7 +28,7 @@ pub struct Fit {
     /// One per girth of the body that the garment goes round.
     pub girths: Vec<Girth>,
     /// Where openings, crotch and shoulders are on the body.
-    pub lengths: Vec<Length>,
+    pub lengths: Vec<WornLength>,
     /// Measurements of the garment laid flat, as size tables have them.
     pub finished: Vec<Finished>,
     /// The fit in words, the tightest place first.
@@ -74,7 +74,7 @@ pub struct Pressure {
 
 /// A length as worn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Length {
+pub struct WornLength {
     /// The opening, seam or place of the garment.
     pub name: String,
     /// Distance beyond or above what it is measured against, mm.
@@ -95,7 +95,7 @@ pub struct Finished {
 }
 
 /// Measures the fit of the draped garment `welded`, whose openings have the rows `worn`.
-pub(super) fn fit(run: &Measured, at: &[Vec3], welded: &Welded, openings: &[Opening], worn: &[Worn]) -> Fit {
+pub(super) fn fit(run: &Measured, at: &[Vec3], welded: &Welded, openings: &[SewnRim], worn: &[Worn]) -> Fit {
     let state = State {
         run,
         welded,

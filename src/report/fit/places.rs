@@ -22,7 +22,7 @@ const GIRTHS: [(&str, &[PartKind], &str); 12] = [
 
 /// A girth of a body.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct GirthPlace {
     /// `bust`, `left biceps`.
     pub(super) name: String,
     /// A point within the part.
@@ -35,7 +35,7 @@ pub(super) struct Place {
     pub(super) kind: PartKind,
 }
 
-impl Place {
+impl GirthPlace {
     /// Points within other parts, in the plane of this girth through `center`: cloth that goes round one of them as
     /// well is not the part's own.
     pub(super) fn others(&self, body: &Mannequin, center: Vec3) -> Vec<Vec3> {
@@ -45,7 +45,7 @@ impl Place {
 }
 
 /// The girths that the body's landmarks tell.
-pub(super) fn places(body: &Mannequin) -> Vec<Place> {
+pub(super) fn places(body: &Mannequin) -> Vec<GirthPlace> {
     let of = |(name, kinds, landmark): (&str, &'static [PartKind], &'static str)| {
         let name = name.to_owned();
         kinds.iter().filter_map(move |kind| place(&name, *kind, landmark, body)).collect::<Vec<_>>()
@@ -53,14 +53,14 @@ pub(super) fn places(body: &Mannequin) -> Vec<Place> {
     GIRTHS.into_iter().flat_map(of).collect()
 }
 
-fn place(name: &str, kind: PartKind, landmark: &str, body: &Mannequin) -> Option<Place> {
+fn place(name: &str, kind: PartKind, landmark: &str, body: &Mannequin) -> Option<GirthPlace> {
     let part = body.part(kind)?;
     let center = part.landmarks.iter().find(|(name, _)| name == landmark)?.1;
     let far = |center: &Vec3, other: &Vec3| (center - other).norm();
     let section = part.sections.iter().min_by(|a, b| far(&center, &a.center).total_cmp(&far(&center, &b.center)))?;
     let (axis, reach) = (section.axis, section.half_width.max(section.half_depth));
     let tape = body.tape(center, axis, |middle| (middle - center).norm() < reach);
-    Some(Place {
+    Some(GirthPlace {
         name: match kind {
             LeftArm | LeftLeg => format!("left {name}"),
             RightArm | RightLeg => format!("right {name}"),

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::{Length, mm};
+use super::{WornLength, mm};
 use crate::geometry::{Vec3, sorted_pair};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::ClothMesh;
-use crate::report::openings::Opening;
+use crate::report::openings::SewnRim;
 use crate::verify::{Through, Welded, worn};
 
 /// For each arm the seam or opening round it that is nearest to the point of the shoulder: how far beyond that point
 /// its highest place is, away from the middle of the body.
-pub(super) fn shoulders(mesh: &ClothMesh, welded: &Welded, openings: &[Opening], body: &Mannequin) -> Vec<Length> {
+pub(super) fn shoulders(mesh: &ClothMesh, welded: &Welded, openings: &[SewnRim], body: &Mannequin) -> Vec<WornLength> {
     let mut loops: Vec<Vec<Vec3>> = seam_loops(mesh, welded);
     loops.extend(openings.iter().map(|opening| opening.positions(welded)));
     let through: Vec<Option<Through>> = worn(&loops, body).into_iter().map(|passage| passage.through).collect();
@@ -24,7 +24,7 @@ pub(super) fn shoulders(mesh: &ClothMesh, welded: &Welded, openings: &[Opening],
         });
         let value = beyond.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         let name = format!("{side} armhole");
-        Some(Length { name, value: mm(value), against: format!("{side} shoulder"), level: None })
+        Some(WornLength { name, value: mm(value), against: format!("{side} shoulder"), level: None })
     };
     let arms = [(PartKind::LeftArm, "left", 1.0), (PartKind::RightArm, "right", -1.0)];
     arms.into_iter().filter_map(arm).collect()

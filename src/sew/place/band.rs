@@ -9,7 +9,7 @@
 //!   └─┘
 //! ```
 
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::rows::extent;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, PieceMesh};
@@ -19,7 +19,7 @@ use crate::pattern::Garment;
 const TALL: f64 = 2.0;
 
 /// Turns every upright band of the unrolled sheet by a quarter. One that is sewn to another band follows it.
-pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
+pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut FoldedPieces) {
     let mut waiting: Vec<usize> = (0..mesh.pieces.len()).filter(|&i| !garment.pieces[i].has_position()).collect();
     while let Some(at) = waiting.iter().position(|&i| is_upright_band(mesh, sheet, i)) {
         turn(mesh, sheet, waiting.remove(at));
@@ -38,7 +38,7 @@ fn stitches<'a>(mesh: &'a ClothMesh, piece: &'a PieceMesh) -> impl Iterator<Item
 }
 
 /// Whether a piece is tall, and its long side is sewn to a level one, or its ends to each other.
-fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, band: usize) -> bool {
+fn is_upright_band(mesh: &ClothMesh, sheet: &FoldedPieces, band: usize) -> bool {
     let piece = &mesh.pieces[band];
     let [low, high] = extent(mesh, sheet, band);
     if high.y - low.y < TALL * (high.x - low.x) {
@@ -63,7 +63,7 @@ fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, band: usize) -> bool {
 }
 
 /// Turns a band so that its sewn side comes to lie towards what it is sewn to: below what is sewn at its top.
-fn turn(mesh: &ClothMesh, sheet: &mut Sheet, band: usize) {
+fn turn(mesh: &ClothMesh, sheet: &mut FoldedPieces, band: usize) {
     let middle = |piece: usize| 0.5 * extent(mesh, sheet, piece).iter().sum::<Vec2>();
     let (own, mut away) = (middle(band), 0.0);
     for [a, b] in stitches(mesh, &mesh.pieces[band]).flatten() {

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use super::assign::is_skirt;
 use super::flute::{self, Flutes};
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use crate::geometry::{Path, Vec2};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -80,7 +80,7 @@ impl Sector {
 }
 
 /// Lays out every piece that is a sector. Pieces that are folded, pleated or stand free stay as they are.
-pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
+pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut FoldedPieces) {
     let sectors: Vec<Option<Sector>> = garment
         .pieces
         .iter()

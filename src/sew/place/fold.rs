@@ -16,7 +16,7 @@ const STRAIGHT: f64 = 0.1e-3;
 const ON_FOLD: f64 = 1e-9;
 
 /// The pieces laid out flat, pressed folds folded over.
-pub(in crate::sew) struct Sheet {
+pub(in crate::sew) struct FoldedPieces {
     /// Flat position of every particle as drawn, but for what is folded over, y down.
     pub(in crate::sew) drawn: Vec<Vec2>,
     /// The same with sectors of circles unrolled, and upright bands laid level.
@@ -38,7 +38,7 @@ pub(in crate::sew) struct Sheet {
 /// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
 /// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
 /// lays level what is an upright band.
-pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
+pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> FoldedPieces {
     let mut sheet = pressed(garment, mesh);
     flare::lay(garment, mesh, &mut sheet);
     band::lay(garment, mesh, &mut sheet);
@@ -46,9 +46,9 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
 }
 
 /// The same with sectors and bands as they are drawn.
-pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
+pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> FoldedPieces {
     let nowhere = || vec![0.0; mesh.flat.len()];
-    let mut sheet = Sheet {
+    let mut sheet = FoldedPieces {
         drawn: Vec::new(),
         flat: mesh.flat.clone(),
         straight: Vec::new(),
@@ -62,7 +62,8 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
         sewn[*p as usize] += 1;
     }
     for piece in &mesh.pieces {
-        let mut flaps: Vec<Flap> = piece.lines.iter().filter_map(|l| flap(garment, mesh, piece, &sewn, l)).collect();
+        let mut flaps: Vec<FoldedFlap> =
+            piece.lines.iter().filter_map(|l| flap(garment, mesh, piece, &sewn, l)).collect();
         // Of two folds one beyond the other the outer is pressed first, and its flap turned over with the inner's.
         flaps.sort_by_key(|flap| flap.particles.len());
         flaps.iter().for_each(|flap| flap.turn_over(&mut sheet));
@@ -75,7 +76,7 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
 
 /// A fold as it is drawn, which goes straight on beyond both ends: the points of a curve, or the two ends of a straight
 /// line.
-struct Crease(Vec<Vec2>);
+struct PressedFold(Vec<Vec2>);
 
 /// The straight line nearest to a particle along a fold: a point, and the unit direction across it.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +92,7 @@ impl Tangent {
     }
 }
 
-impl Crease {
+impl PressedFold {
     fn new(mesh: &ClothMesh, line: &LineParticles) -> Self {
         Self::through(line.particles.iter().map(|p| mesh.flat[*p as usize]).collect())
     }
@@ -124,7 +125,7 @@ impl Crease {
 }
 
 /// The particles that are turned over at a pressed fold, each with the line it is mirrored in.
-struct Flap {
+struct FoldedFlap {
     particles: Vec<(usize, Tangent)>,
     /// To the wrong side (1) or the right side (-1).
     way: f64,
@@ -132,9 +133,15 @@ struct Flap {
 
 /// The flap of a `line` that is pressed: the side of it with fewer stitches. None of another line, nor of a crease that
 /// is worn open.
-fn flap(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, sewn: &[u32], line: &LineParticles) -> Option<Flap> {
+fn flap(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    piece: &PieceMesh,
+    sewn: &[u32],
+    line: &LineParticles,
+) -> Option<FoldedFlap> {
     let LineKind::Fold(angle) = line.kind else { return None };
-    let crease = Crease::new(mesh, line);
+    let crease = PressedFold::new(mesh, line);
     let along = crease.along().filter(|_| angle.abs() >= PRESSED)?;
     let tangents = piece.particles.clone().map(|p| Some((p, crease.tangent(mesh.flat[p])?)));
     let tangents: Vec<(usize, Tangent)> = tangents.collect::<Option<_>>()?;
@@ -145,12 +152,12 @@ fn flap(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, sewn: &[u32], li
     let balance: f64 = piece.particles.clone().map(|p| off(p).signum() * f64::from(sewn[p])).sum();
     let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
     let is_over = |(p, _): &&(usize, Tangent)| off(*p) * keep < -ON_FOLD;
-    Some(Flap { particles: tangents.iter().filter(is_over).copied().collect(), way: angle.signum() })
+    Some(FoldedFlap { particles: tangents.iter().filter(is_over).copied().collect(), way: angle.signum() })
 }
 
-impl Flap {
+impl FoldedFlap {
     /// Mirrors it in its fold as it lies by now, what was uppermost of its layers undermost.
-    fn turn_over(&self, sheet: &mut Sheet) {
+    fn turn_over(&self, sheet: &mut FoldedPieces) {
         let layers = self.particles.iter().map(|&(p, _)| self.way * sheet.under[p]);
         let highest = layers.fold(0.0, f64::max);
         for &(p, tangent) in &self.particles {
@@ -199,11 +206,18 @@ mod tests {
         let nowhere = Vec::new;
         let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
         let (under, hidden) = (vec![0.0; 3], vec![false; 3]);
-        let mut sheet =
-            Sheet { drawn: nowhere(), flat, straight: nowhere(), under, hidden, shut: Vec::new(), out: Vec::new() };
+        let mut sheet = FoldedPieces {
+            drawn: nowhere(),
+            flat,
+            straight: nowhere(),
+            under,
+            hidden,
+            shut: Vec::new(),
+            out: Vec::new(),
+        };
         let flap = |particles: &[usize], x: f64, way: f64| {
             let tangent = Tangent { at: Vec2::new(x, 0.0), across: Vec2::x() };
-            Flap { particles: particles.iter().map(|p| (*p, tangent)).collect(), way }
+            FoldedFlap { particles: particles.iter().map(|p| (*p, tangent)).collect(), way }
         };
         flap(&[2], 0.04, outer).turn_over(&mut sheet);
         flap(&[1, 2], 0.02, inner).turn_over(&mut sheet);
@@ -227,7 +241,7 @@ mod tests {
     #[test]
     fn a_curved_fold_is_followed_by_the_line_nearest_to_a_point() {
         let arc = |turn: f64| Vec2::new(turn.sin(), turn.cos());
-        let crease = Crease::through((0..=100).map(|k| arc(0.02 * f64::from(k) - 1.0)).collect());
+        let crease = PressedFold::through((0..=100).map(|k| arc(0.02 * f64::from(k) - 1.0)).collect());
         for turn in [-0.9, -0.31, 0.0, 0.57, 0.9] {
             for radius in [0.9, 1.1] {
                 let p = arc(turn) * radius;
@@ -238,7 +252,7 @@ mod tests {
             }
         }
         // Beyond its ends it goes straight on, and all of a straight one is one line.
-        let straight = Crease::through([0.0, 0.3, 1.0].map(|x| Vec2::new(x, 0.0)).to_vec());
+        let straight = PressedFold::through([0.0, 0.3, 1.0].map(|x| Vec2::new(x, 0.0)).to_vec());
         assert_eq!(straight.0.len(), 2);
         let off = |x: f64| straight.tangent(Vec2::new(x, 0.2)).expect("segments").off(Vec2::new(x, 0.2));
         assert_relative_eq!(off(-2.0), off(5.0));

@@ -8,7 +8,7 @@
 //! ```
 
 use super::assign::Assigned;
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::ring::LAYER;
 use super::rows::{Link, Member, ROOM, extent};
 use crate::geometry::{Vec2, Vec3, range_of};
@@ -124,7 +124,7 @@ fn rib_at(ribs: &[Rib], v: f64) -> Rib {
 /// right of the other.)
 pub(super) fn slit(
     links: &[Link],
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     assigned: &[Assigned],
     garment: &Garment,
     piece: usize,
@@ -177,7 +177,7 @@ pub(super) fn hosted(
 }
 
 /// Whether links run down one side of a piece and up the other: one that turns, or one on either side.
-fn goes_round(own: &[&Link], sheet: &Sheet, side: impl Fn(&Link) -> usize) -> bool {
+fn goes_round(own: &[&Link], sheet: &FoldedPieces, side: impl Fn(&Link) -> usize) -> bool {
     let at = |l: &Link, n: usize| sheet.flat[l.pairs[n][side(l)] as usize];
     match own {
         [one] => {
@@ -199,7 +199,7 @@ fn goes_round(own: &[&Link], sheet: &Sheet, side: impl Fn(&Link) -> usize) -> bo
 /// beyond its host.
 pub(super) fn inserts(
     mesh: &ClothMesh,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     links: &[Link],
     members: &[Member],
     hosts: &[Option<(usize, Vec2)>],

@@ -1,7 +1,7 @@
 //! Members that closures hold one over the other, as the fronts of a shirt: they start lapped, the one with the
 //! buttonholes outside.
 
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::ring::LAYER;
 use super::rows::{Member, extent};
 use crate::geometry::{Vec2, range_of};
@@ -15,7 +15,7 @@ const RAMP: f64 = 0.03;
 
 /// Two neighbours of a row, one over the other.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lap {
+pub(super) struct RowLap {
     /// Number of the first of the two in its row; the other one is next, or the row's first after its last.
     pub(super) joint: usize,
     /// Number of the one outside.
@@ -28,7 +28,7 @@ pub(super) struct Lap {
 
 /// The laps of a row of these members, one for a joint: what a closure is on lies under what it meets, as a button
 /// under its hole.
-pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &Sheet, members: &[Member]) -> Vec<Lap> {
+pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &FoldedPieces, members: &[Member]) -> Vec<RowLap> {
     let n = members.len();
     let mut all: Vec<(usize, usize, Vec<[Vec2; 2]>)> = Vec::new();
     for tack in closures.iter().flat_map(|c| &c.tacks) {
@@ -47,14 +47,14 @@ pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &Sheet, member
     all.dedup_by_key(|lap| lap.0);
     let lap = |(joint, over, ends): (usize, usize, Vec<[Vec2; 2]>)| {
         let mean = |k: usize| ends.iter().map(|end| end[k].x).sum::<f64>() / ends.len() as f64;
-        Lap { joint, over, at: [mean(0), mean(1)], v: range_of(ends.iter().flatten().map(|end| end.y)) }
+        RowLap { joint, over, at: [mean(0), mean(1)], v: range_of(ends.iter().flatten().map(|end| end.y)) }
     };
     all.into_iter().map(lap).collect()
 }
 
 /// An end of a tack on a member.
 #[derive(Clone, Copy)]
-struct Held {
+struct TackEnd {
     member: usize,
     /// In row positions.
     at: Vec2,
@@ -64,20 +64,20 @@ struct Held {
 
 /// Whether a tack holds the left end of one member over the right end of the other: it is nearer to these than to their
 /// other ends, and they lap by less than either is wide.
-fn meet(a: Held, b: Held) -> bool {
-    let lap = |a: Held, b: Held| (a.ends[1] - a.at.x) + (b.at.x - b.ends[0]);
-    let width = |held: Held| held.ends[1] - held.ends[0];
+fn meet(a: TackEnd, b: TackEnd) -> bool {
+    let lap = |a: TackEnd, b: TackEnd| (a.ends[1] - a.at.x) + (b.at.x - b.ends[0]);
+    let width = |held: TackEnd| held.ends[1] - held.ends[0];
     lap(a, b) < lap(b, a) && lap(a, b) < WIDEST * width(a).min(width(b))
 }
 
-fn held(mesh: &ClothMesh, sheet: &Sheet, members: &[Member], (piece, at): (usize, Vec2)) -> Option<Held> {
+fn held(mesh: &ClothMesh, sheet: &FoldedPieces, members: &[Member], (piece, at): (usize, Vec2)) -> Option<TackEnd> {
     let member = members.iter().position(|m| m.piece == piece)?;
     let at = sheet.flat[mesh.nearest(piece, at)?];
     let shift = members[member].shift;
-    Some(Held { member, at: at + shift, ends: extent(mesh, sheet, piece).map(|corner| corner.x + shift.x) })
+    Some(TackEnd { member, at: at + shift, ends: extent(mesh, sheet, piece).map(|corner| corner.x + shift.x) })
 }
 
-impl Lap {
+impl RowLap {
     /// Room between the two where they span these u: less than nothing, for they lap.
     pub(super) fn gap(&self, [own, next]: [[f64; 2]; 2]) -> f64 {
         (self.at[0] - own[1]) + (next[0] - self.at[1])
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn what_laps_lies_over_what_is_under_it_and_comes_down_beyond() {
         // Held together 20 mm from the end of either: they lap by 40 mm.
-        let lap = Lap { joint: 3, over: 0, at: [0.98, 0.02], v: [0.1, 0.5] };
+        let lap = RowLap { joint: 3, over: 0, at: [0.98, 0.02], v: [0.1, 0.5] };
         let spans = [[0.6, 1.0], [0.0, 0.4]];
         assert_relative_eq!(lap.gap(spans), -0.04, epsilon = 1e-12);
         let off = |u: f64| lap.off(0, u, spans);
@@ -113,7 +113,7 @@ mod tests {
     }
     #[test]
     fn a_tie_holds_the_ends_that_it_laps_by_less() {
-        let held = |member: usize, u: f64, ends: [f64; 2]| Held { member, at: Vec2::new(u, 0.0), ends };
+        let held = |member: usize, u: f64, ends: [f64; 2]| TackEnd { member, at: Vec2::new(u, 0.0), ends };
         // A wrap: either end is tied near the other's middle.
         let (right, left) = ([0.0, 0.45], [0.45, 0.9]);
         for (a, b) in [(0.2, 0.46), (0.44, 0.7)] {

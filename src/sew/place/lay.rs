@@ -4,7 +4,7 @@
 use nalgebra::{Isometry2, Point2, UnitComplex};
 
 use super::assign::Assigned;
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::ring::LAYER;
 use super::rows::{Link, links};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
@@ -37,14 +37,14 @@ struct Host {
 pub(in crate::sew) struct Laid {
     hosts: Vec<Host>,
     /// For every particle, in their order, which of the hosts it lies on, and where there.
-    spots: Vec<(usize, Spot)>,
+    spots: Vec<(usize, HostSpot)>,
 }
 
 /// For every piece how it lies on others; `None` for those that have a place in a row.
 pub(super) fn laid(
     garment: &Garment,
     mesh: &ClothMesh,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     assigned: &[Assigned],
     links: &[Link],
 ) -> Vec<Option<Laid>> {
@@ -70,7 +70,7 @@ pub(super) fn laid(
 pub(in crate::sew) fn laid_on_rest(
     garment: &Garment,
     mesh: &ClothMesh,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     pieces: &[usize],
 ) -> Vec<Option<Laid>> {
     let links = links(mesh, sheet);
@@ -100,7 +100,7 @@ pub(in crate::sew) fn layers_over(garment: &Garment, own: usize, host: usize) ->
 struct Table<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
-    sheet: &'a Sheet,
+    sheet: &'a FoldedPieces,
     links: &'a [Link],
     inward: Vec<Vec2>,
 }
@@ -135,7 +135,7 @@ impl Table<'_> {
     /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there.
     fn on(&self, own: usize, may: impl Fn(&usize) -> bool) -> Option<Laid> {
         let lies_on = |piece: usize| {
-            let to_host = self.matched(own, piece, Way::Same)?;
+            let to_host = self.matched(own, piece, SeamWay::Same)?;
             Some(Host { piece, layers: layers_over(self.garment, own, piece), to_host })
         };
         self.spread(own, (0..self.mesh.pieces.len()).filter(may).filter_map(lies_on).collect())
@@ -147,7 +147,7 @@ impl Table<'_> {
         let of_layer = |other: &usize| *other != own && self.garment.pieces[*other].level() == layer;
         let beside = |other: usize| {
             let hosts = &laid[other].as_ref()?.hosts;
-            let to_other = self.matched(own, other, Way::On)?;
+            let to_other = self.matched(own, other, SeamWay::On)?;
             Some(hosts.iter().map(move |host| Host { to_host: host.to_host * to_other, ..host.clone() }))
         };
         self.spread(own, (0..laid.len()).filter(of_layer).filter_map(beside).flatten().collect())
@@ -155,14 +155,14 @@ impl Table<'_> {
 
     /// The turn and shift that lay a piece where its stitches with another one meet, if they match there and its cloth
     /// goes the `way` asked for. (Of a band and what hangs from it, it goes on.)
-    fn matched(&self, own: usize, other: usize, way: Way) -> Option<Isometry2<f64>> {
+    fn matched(&self, own: usize, other: usize, way: SeamWay) -> Option<Isometry2<f64>> {
         let stitches = stitches(self.links, own, other);
         let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.drawn[p as usize])).collect();
         let to_other = fit(&ends)?;
         let misfit: f64 = ends.iter().map(|[a, b]| ((to_other * Point2::from(*a)).coords - b).norm_squared()).sum();
         let inward = stitches.iter().map(|pair| pair.map(|p| self.inward[p as usize]));
         let same_way = inward.map(|[a, b]| (to_other * a).dot(&b)).sum::<f64>() > 0.0;
-        (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way == (way == Way::Same)).then_some(to_other)
+        (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way == (way == SeamWay::Same)).then_some(to_other)
     }
 
     /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if
@@ -190,7 +190,7 @@ impl Table<'_> {
 
 /// Where the cloth of a piece goes from a seam: over the other piece, or on from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Way {
+enum SeamWay {
     Same,
     On,
 }
@@ -275,7 +275,7 @@ pub(in crate::sew) fn fit(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
 }
 
 /// Where the cloth lies from every particle: on average over its triangles, metres; about nothing inside a piece.
-fn inward(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Vec2> {
+fn inward(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Vec2> {
     let mut sums = vec![(Vec2::zeros(), 0.0); mesh.flat.len()];
     for t in &mesh.triangles {
         let middle = t.iter().map(|&n| sheet.drawn[n as usize]).sum::<Vec2>() / 3.0;
@@ -288,7 +288,13 @@ fn inward(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Vec2> {
 }
 
 /// Puts the pieces that lie on others on them, those first whose hosts have their place in `x` from the first.
-pub(in crate::sew) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, laid: &[Option<Laid>], x: &mut [Vec3]) {
+pub(in crate::sew) fn lay(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    sheet: &FoldedPieces,
+    laid: &[Option<Laid>],
+    x: &mut [Vec3],
+) {
     let mut order: Vec<(usize, &Laid)> =
         laid.iter().enumerate().filter_map(|(own, laid)| Some((own, laid.as_ref()?))).collect();
     order.sort_by_key(|&(own, _)| (garment.pieces[own].layer.unsigned_abs(), own));
@@ -304,7 +310,7 @@ pub(in crate::sew) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, la
 
 /// How many layers out of its host a piece lies: beyond what the host has folded there (hems, pleats), and with its own
 /// folds between the two.
-fn off(mesh: &ClothMesh, sheet: &Sheet, host: &Host, own: usize) -> f64 {
+fn off(mesh: &ClothMesh, sheet: &FoldedPieces, host: &Host, own: usize) -> f64 {
     let side = f64::from(host.layers.signum());
     let deepest =
         |piece: usize, way: f64| mesh.pieces[piece].particles.clone().map(|p| way * sheet.under[p]).fold(0.0, f64::max);
@@ -312,7 +318,7 @@ fn off(mesh: &ClothMesh, sheet: &Sheet, host: &Host, own: usize) -> f64 {
 }
 
 /// The triangles of a piece of which nothing is folded under.
-fn open(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> Vec<[u32; 3]> {
+fn open(mesh: &ClothMesh, sheet: &FoldedPieces, piece: usize) -> Vec<[u32; 3]> {
     let open = |t: &&[u32; 3]| t.iter().all(|&n| sheet.under[n as usize] == 0.0);
     mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(open).copied().collect()
 }
@@ -326,7 +332,7 @@ struct Ground<'a> {
 
 impl Ground<'_> {
     /// The spot of the host on which particle `p` lies.
-    fn under(&self, p: usize) -> Spot {
+    fn under(&self, p: usize) -> HostSpot {
         let at = (self.to_host * Point2::from(self.drawn[p])).coords;
         let (corners, weights) = self.locator.place(at);
         let within = weights.map(|w| w.clamp(0.0, 1.0));
@@ -334,13 +340,13 @@ impl Ground<'_> {
         let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| self.drawn[n as usize] * w).sum();
         // Within the rim nothing but rounding tells hosts apart: the first one has it.
         let beyond = Some((at - nearest).norm()).filter(|d| *d > ROUNDING).unwrap_or(0.0);
-        Spot { beyond, corners, weights, within }
+        HostSpot { beyond, corners, weights, within }
     }
 }
 
 /// A spot on a host or beyond its rim.
 #[derive(Clone, Debug)]
-struct Spot {
+struct HostSpot {
     /// How far beyond the rim in the flat, metres.
     beyond: f64,
     /// The triangle there, or the nearest.
@@ -351,7 +357,7 @@ struct Spot {
     within: [f64; 3],
 }
 
-impl Spot {
+impl HostSpot {
     /// Its place in space, `off` metres out of the host's right side.
     fn raised(&self, x: &[Vec3], normals: &[Vec3], off: f64) -> Vec3 {
         let sum = |of: &[Vec3], weights: [f64; 3]| -> Vec3 {

@@ -1,6 +1,6 @@
 //! A row level by level: where its members are, and how they stand side by side round a ring.
 
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::rows::{Link, Member, Middle, ROOM, Row, extent, stitched};
 use crate::geometry::box_of;
 use crate::mesh::ClothMesh;
@@ -35,7 +35,7 @@ impl Level {
 }
 
 /// Reads the row's outline level by level and packs its members side by side.
-pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link]) -> Vec<Level> {
+pub(super) fn levels(mesh: &ClothMesh, sheet: &FoldedPieces, row: &Row, links: &[Link]) -> Vec<Level> {
     let count = ((row.v[1] - row.v[0]) / LEVEL).ceil() as usize + 1;
     let members = row.members.len();
     let mut out = vec![Level { spans: vec![None; members], shift: vec![0.0; members], ..Level::default() }; count];
@@ -100,7 +100,13 @@ struct Joint {
 }
 
 /// The joints after every member, the last one's being that with the first.
-fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
+fn joints(
+    mesh: &ClothMesh,
+    sheet: &FoldedPieces,
+    row: &Row,
+    links: &[Link],
+    level_of: &impl Fn(f64) -> usize,
+) -> Vec<Joint> {
     let n = row.members.len();
     let middle = |m: &Member| {
         let [low, high] = extent(mesh, sheet, m.piece);

@@ -8,7 +8,7 @@
 //!
 //! Panels lie like shingles, so that pleats may follow one another edge to edge.
 
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
 use crate::pattern::{EdgeId, Garment, PleatLayer, Seam, SeamKind};
@@ -57,7 +57,7 @@ impl Fold {
 }
 
 /// Lays the pleats of every piece. Pleats that are sewn at both ends are laid once.
-pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
+pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut FoldedPieces) {
     let under = garment.seams.iter().filter(|s| s.kind == SeamKind::Pleat(PleatLayer::Under));
     let mut all: Vec<(EdgeId, Fold)> = under.filter_map(Fold::of).collect();
     all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.at.total_cmp(&b.1.at)));

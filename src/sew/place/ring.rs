@@ -2,12 +2,12 @@
 
 use super::arms::Arms;
 use super::ellipse::Ellipse;
-use super::fold::Sheet;
-use super::lap::Lap;
+use super::fold::FoldedPieces;
+use super::lap::RowLap;
 use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts, smoothed, spread_out};
 use super::rows::{Link, Member, Row};
 use super::shoulders::Lean;
-use super::stations::{Station, Stations};
+use super::stations::{BodyStation, Stations};
 use crate::geometry::{Vec2, Vec3, range_of};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
@@ -26,7 +26,7 @@ const ARMHOLE: f64 = 0.2;
 pub(super) struct Ring<'a> {
     pub(super) links: &'a [Link],
     pub(super) mesh: &'a ClothMesh,
-    pub(super) sheet: &'a Sheet,
+    pub(super) sheet: &'a FoldedPieces,
     pub(super) row: &'a Row,
     pub(super) levels: Vec<Level>,
     pub(super) stations: Stations,
@@ -90,7 +90,7 @@ impl Ring<'_> {
     /// How far off the ring member `i` is at a row position, over one that it is buttoned to.
     fn lifted(&self, i: usize, at: Vec2) -> f64 {
         let level = &self.levels[nearest_level(self.row, self.levels.len(), at.y)];
-        let off = |lap: &Lap| {
+        let off = |lap: &RowLap| {
             let next = (lap.joint + 1) % self.row.members.len();
             let [Some(own), Some(next)] = [lap.joint, next].map(|k| level.spans[k]) else { return 0.0 };
             lap.off(i, at.x, [own, next])
@@ -229,7 +229,7 @@ fn covered(mut stretches: Vec<[f64; 2]>) -> f64 {
 }
 
 /// Half width and half depth of a ring as long as that of `axes` which is out of the arms, if the body leaves room.
-fn between(arms: &Arms, station: &Station, axes: [f64; 2]) -> [f64; 2] {
+fn between(arms: &Arms, station: &BodyStation, axes: [f64; 2]) -> [f64; 2] {
     let room = arms.room(station.center.x, station.center.y) - CLEARANCE;
     let narrow = room.max(station.half_width + 0.5 * CLEARANCE);
     if axes[0] <= narrow {

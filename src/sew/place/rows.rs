@@ -1,9 +1,9 @@
 //! Pieces side by side in rows, rows one over the other.
 
 use super::assign::{Assigned, Facing};
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::insert::{Insert, hosted, inserts, slit};
-use super::lap::{Lap, laps};
+use super::lap::{RowLap, laps};
 use super::lay::{self, Laid};
 use crate::geometry::{Vec2, box_of, range_of};
 use crate::mannequin::PartKind;
@@ -66,7 +66,7 @@ pub(super) struct Row {
     /// Godets and the like, which lie in a slit of a member.
     pub(super) inserts: Vec<Insert>,
     /// Where closures hold members one over the other.
-    pub(super) laps: Vec<Lap>,
+    pub(super) laps: Vec<RowLap>,
     /// Where the front middle is, if the row knows.
     pub(super) front: Option<Middle>,
     /// Lowest and highest v.
@@ -97,7 +97,7 @@ pub(super) struct Rows {
 }
 
 /// Lays the pieces out. Pieces with a rigid place of their own are left out, and those that lie on others.
-pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned]) -> Rows {
+pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces, assigned: &[Assigned]) -> Rows {
     let links = links(mesh, sheet);
     let laid = lay::laid(garment, mesh, sheet, assigned, &links);
     let links = lay::through(links, mesh, &laid);
@@ -153,7 +153,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
 type Joining = (usize, usize, Vec2);
 
 /// The longest upright link from a member of the row to a piece that `joins` it there.
-fn widest_next(links: &[Link], sheet: &Sheet, joins: &impl Fn(usize, usize) -> bool) -> Option<Joining> {
+fn widest_next(links: &[Link], sheet: &FoldedPieces, joins: &impl Fn(usize, usize) -> bool) -> Option<Joining> {
     let mut best: Option<(f64, Joining)> = None;
     for link in links.iter().filter(|l| l.upright) {
         for k in 0..2 {
@@ -174,7 +174,7 @@ fn over_the_shoulder(
     links: &[Link],
     assigned: &[Assigned],
     mesh: &ClothMesh,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     members: &[Member],
     joins: &impl Fn(usize, usize) -> bool,
 ) -> Option<Joining> {
@@ -200,17 +200,23 @@ fn over_the_shoulder(
 }
 
 /// The mean place of a link's stitches on its piece number `k`, as the piece is drawn.
-pub(super) fn stitched(link: &Link, sheet: &Sheet, k: usize) -> Vec2 {
+pub(super) fn stitched(link: &Link, sheet: &FoldedPieces, k: usize) -> Vec2 {
     link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize]).sum::<Vec2>() / link.pairs.len() as f64
 }
 
 /// The corners of the box round a piece.
-pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2] {
+pub(super) fn extent(mesh: &ClothMesh, sheet: &FoldedPieces, piece: usize) -> [Vec2; 2] {
     box_of(mesh.pieces[piece].particles.clone().map(|p| sheet.flat[p]))
 }
 
 /// A row of these members, put in order, without inserts.
-fn finish_row(mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned], layer: i32, mut members: Vec<Member>) -> Row {
+fn finish_row(
+    mesh: &ClothMesh,
+    sheet: &FoldedPieces,
+    assigned: &[Assigned],
+    layer: i32,
+    mut members: Vec<Member>,
+) -> Row {
     let part = assigned[members[0].piece].part;
     let size = |m: &Member| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift);
     members.sort_by(|a, b| center(&size(a)).total_cmp(&center(&size(b))));
@@ -251,7 +257,7 @@ fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) 
 }
 
 /// Seams cut into links between pairs of pieces.
-pub(super) fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
+pub(super) fn links(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Link> {
     let joined = |pair: &[u32; 2]| pair.map(|p| mesh.piece_of(p));
     let mut out = Vec::new();
     for (seam, stitches) in mesh.seams.iter().enumerate() {
@@ -285,7 +291,7 @@ pub(super) fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
 
 /// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within
 /// half of its width. (Shoulders end far above the hem, waists go from side to side.)
-fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
+fn is_flank(mesh: &ClothMesh, sheet: &FoldedPieces, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
     let size = |particles: &mut dyn Iterator<Item = usize>| {
         let [low, high] = box_of(particles.map(|p| sheet.straight[p]));
         high - low
@@ -297,7 +303,7 @@ fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterat
 
 /// Which rows hang from the shoulders: those with shoulder seams, or, where the garment has none, those of the trunk
 /// that raglan sleeves carry.
-fn hanging(rows: &[Row], links: &[Link], sheet: &Sheet, assigned: &[Assigned]) -> Vec<bool> {
+fn hanging(rows: &[Row], links: &[Link], sheet: &FoldedPieces, assigned: &[Assigned]) -> Vec<bool> {
     let shoulders: Vec<bool> = rows.iter().map(|row| has_shoulders(row, links, sheet)).collect();
     let of_trunk = |row: &Row| row.part == PartKind::Torso;
     if rows.iter().zip(&shoulders).any(|(row, has)| *has && of_trunk(row)) {
@@ -308,25 +314,25 @@ fn hanging(rows: &[Row], links: &[Link], sheet: &Sheet, assigned: &[Assigned]) -
 }
 
 /// Whether level seams join pieces of the row in its upper half: shoulders.
-fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
+fn has_shoulders(row: &Row, links: &[Link], sheet: &FoldedPieces) -> bool {
     let inside = |piece: usize| row.members.iter().any(|m| m.piece == piece);
     links.iter().any(|l| !l.upright && inside(l.pieces[1]) && is_high(row, l, sheet, 0))
 }
 
 /// Whether pieces round the arms are sewn to the row in its upper half.
-fn is_carried_by_sleeves(row: &Row, links: &[Link], sheet: &Sheet, assigned: &[Assigned]) -> bool {
+fn is_carried_by_sleeves(row: &Row, links: &[Link], sheet: &FoldedPieces, assigned: &[Assigned]) -> bool {
     let sleeve = |piece: usize| assigned[piece].part.is_arm();
     links.iter().any(|l| (0..2).any(|k| sleeve(l.pieces[1 - k]) && is_high(row, l, sheet, k)))
 }
 
 /// Whether piece number `k` of a link is in the row, and sewn to the other in the row's upper half.
-fn is_high(row: &Row, link: &Link, sheet: &Sheet, k: usize) -> bool {
+fn is_high(row: &Row, link: &Link, sheet: &FoldedPieces, k: usize) -> bool {
     let member = row.members.iter().find(|m| m.piece == link.pieces[k]);
     member.is_some_and(|m| stitched(link, sheet, k).y + m.shift.y < 0.5 * (row.v[0] + row.v[1]))
 }
 
 /// Puts rows of one part over each other and says in which order to place them: rows of the trunk first.
-fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> Vec<(usize, Option<usize>)> {
+fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &FoldedPieces) -> Vec<(usize, Option<usize>)> {
     let mut order: Vec<(usize, Option<usize>)> = Vec::new();
     let mut done = vec![false; rows.len()];
     let mut roots: Vec<usize> = (0..rows.len()).collect();
@@ -386,7 +392,7 @@ fn rows_beside(links: &[Link], row_of: &[usize], at: usize, waits: impl Fn(usize
 }
 
 /// Shifts row `other` up or down so that its seam with row `at` meets, without overlap; another layer lies over it.
-fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet, at: usize, other: usize) {
+fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &FoldedPieces, at: usize, other: usize) {
     let level = |rows: &[Row], row: usize, p: u32, piece: usize| {
         let shift = rows[row].members.iter().find(|m| m.piece == piece).map_or(0.0, |m| m.shift.y);
         sheet.flat[p as usize].y + shift
@@ -466,7 +472,7 @@ mod tests {
             layer: 0,
             members,
             inserts: Vec::new(),
-            laps: vec![Lap::default()],
+            laps: vec![RowLap::default()],
             front: None,
             v: [0.0, 1.0],
             hangs: false,

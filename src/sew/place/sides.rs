@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::PlaceError;
 use super::assign::Assigned;
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::rows::{Link, Row, Rows};
 use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
@@ -25,7 +25,7 @@ const SLANTED: f64 = 0.5;
 pub(super) fn check(
     garment: &Garment,
     mesh: &ClothMesh,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     assigned: &[Assigned],
     rows: &Rows,
 ) -> Result<(), PlaceError> {

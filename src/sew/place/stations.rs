@@ -9,7 +9,7 @@ const INSTEP: f64 = 0.12;
 
 /// A cross-section with the frame that rows are bent in.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Station {
+pub(super) struct BodyStation {
     pub(super) center: Vec3,
     /// Where a row's front middle goes: forward for the trunk, outward for an arm.
     pub(super) front: Vec3,
@@ -23,7 +23,7 @@ pub(super) struct Station {
 #[derive(Clone)]
 pub(super) struct Stations {
     part: PartKind,
-    list: Vec<(f64, Station)>,
+    list: Vec<(f64, BodyStation)>,
     landmarks: Vec<(String, f64)>,
 }
 
@@ -33,7 +33,8 @@ impl Stations {
         let own = body.part(part)?;
         let mut list = match part {
             PartKind::Torso | PartKind::Neck => {
-                let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
+                let mut list: Vec<(f64, BodyStation)> =
+                    own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
                 if part == PartKind::Torso
                     && let (Some(left), Some(right)) = (body.part(PartKind::LeftLeg), body.part(PartKind::RightLeg))
                 {
@@ -77,7 +78,7 @@ impl Stations {
     }
 
     /// The station at a coordinate, linear between sections, straight on beyond the ends.
-    pub(super) fn at(&self, s: f64) -> Station {
+    pub(super) fn at(&self, s: f64) -> BodyStation {
         let n = self.list.len();
         if n == 1 {
             return self.list[0].1;
@@ -99,7 +100,7 @@ impl Stations {
     }
 }
 
-impl Station {
+impl BodyStation {
     /// Length of a ring that stays `clearance` metres off the section.
     pub(super) fn perimeter(&self, clearance: f64) -> f64 {
         Ellipse::new(self.half_width + clearance, self.half_depth + clearance).perimeter
@@ -119,12 +120,18 @@ impl Station {
 }
 
 /// A section of the trunk or the neck as a station: rows begin at its front.
-fn upright(s: &Section) -> Station {
-    Station { center: s.center, front: Vec3::z(), right: Vec3::x(), half_width: s.half_width, half_depth: s.half_depth }
+fn upright(s: &Section) -> BodyStation {
+    BodyStation {
+        center: s.center,
+        front: Vec3::z(),
+        right: Vec3::x(),
+        half_width: s.half_width,
+        half_depth: s.half_depth,
+    }
 }
 
 /// Below the crotch the trunk's ring goes round both legs, and round the feet where the body has any.
-fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f64, Station)> {
+fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, BodyStation)], body: &TriMesh) -> Vec<(f64, BodyStation)> {
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
     let ankle = legs.iter().flat_map(|leg| &leg.sections).map(|s| s.center.y).fold(f64::INFINITY, f64::min);
     // How far the feet reach back and forward.
@@ -142,13 +149,13 @@ fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> 
             let sides = [other.center.x - other.half_width, s.center.x + s.half_width];
             let center = Vec3::new(0.5 * (sides[0] + sides[1]), s.center.y, 0.5 * (back + front));
             let (half_width, half_depth) = (0.5 * (sides[1] - sides[0]), 0.5 * (front - back));
-            (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth })
+            (-s.center.y, BodyStation { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth })
         })
         .collect()
 }
 
 /// Stations along a limb, from the trunk outward: a row's front middle goes to the side away from the other limb.
-fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, Station)> {
+fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, BodyStation)> {
     let sideways = if matches!(kind, PartKind::LeftArm | PartKind::LeftLeg) { Vec3::x() } else { -Vec3::x() };
     let mut out = Vec::new();
     let mut s = 0.0;
@@ -160,7 +167,7 @@ fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, Station)> {
         let front = (sideways - d * d.dot(&sideways)).try_normalize(1e-9).unwrap_or(sideways);
         let right = front.cross(&d);
         let (half_width, half_depth) = (section.half_depth, section.half_width);
-        out.push((s, Station { center: section.center, front, right, half_width, half_depth }));
+        out.push((s, BodyStation { center: section.center, front, right, half_width, half_depth }));
     }
     out
 }

@@ -3,7 +3,7 @@
 use super::PlaceError;
 use super::arms::Arms;
 use super::assign::is_at_bust;
-use super::fold::Sheet;
+use super::fold::FoldedPieces;
 use super::lay::beneath;
 use super::levels::{LEVEL, Level, SMOOTHING, levels};
 use super::ring::{LAYER, Ring};
@@ -41,7 +41,7 @@ pub(super) fn wrap(
     mesh: &ClothMesh,
     body: &Mannequin,
     collider: &Collider,
-    sheet: &Sheet,
+    sheet: &FoldedPieces,
     rows: &Rows,
 ) -> Result<Vec<Vec3>, PlaceError> {
     let arms = Arms::of(body);

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::contact::Skin;
 use crate::dynamics::{StepError, World};
 use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::Spread;
+use crate::mannequin::LimbSpread;
 use crate::sew::settle::{STEP, TRUST};
 
 /// No cloth is carried further than this in one stage on the average, metres.
@@ -24,7 +24,7 @@ const STEPS: usize = 3;
 
 /// Which share of a limb's way every node of a garment goes.
 pub(super) struct Carrier<'a> {
-    spreads: &'a [Spread],
+    spreads: &'a [LimbSpread],
     /// Node by node, limb by limb.
     weights: Vec<Vec<f64>>,
 }
@@ -32,7 +32,7 @@ pub(super) struct Carrier<'a> {
 impl<'a> Carrier<'a> {
     /// For nodes at `x` on a body with its limbs apart. Cloth goes the way of the skin that it is near to: of limbs, or
     /// of the rest, which stays. `None` if a limb has no skin.
-    pub(super) fn new(apart: &TriMesh, spreads: &'a [Spread], x: &[Vec3]) -> Option<Self> {
+    pub(super) fn new(apart: &TriMesh, spreads: &'a [LimbSpread], x: &[Vec3]) -> Option<Self> {
         // Of every vertex the number of its limb; the rest comes last, with the skin where they join.
         let mut limb = vec![spreads.len(); apart.vertices.len()];
         for (k, spread) in spreads.iter().enumerate() {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::contact::Skin;
 use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::{BodyPart, Junction, Mannequin, PartKind, Side};
+use crate::mannequin::{BodyPart, Junction, JunctionSide, Mannequin, PartKind};
 
 /// What is nearer to each other than this from back to front, metres, has to have room sideways; what is further from
 /// each other than twice this has it there: cloth passes between.
@@ -25,7 +25,7 @@ impl Limbs {
     /// The arm or leg that the limb of a junction is, and the one that it hangs beside. Hair, a bag or a hand that has
     /// grown to a hip hang down too, and are none: most of an arm must be in it.
     pub(super) fn of(&self, junction: &Junction) -> [Option<PartKind>; 2] {
-        [Side::Limb, Side::Beside].map(|side| {
+        [JunctionSide::Limb, JunctionSide::Beside].map(|side| {
             let is_in = |skin: &&(PartKind, Vec<u32>)| {
                 2 * skin.1.iter().filter(|v| junction.side[**v as usize] == side).count() > skin.1.len()
             };
@@ -90,12 +90,12 @@ fn add(outline: &mut Outline, [p, q]: [Vec3; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Edge, Topology, Vec3};
+    use crate::geometry::{MeshEdge, Topology, Vec3};
     use crate::mannequin::{LIMB, junctions};
 
     /// Square tubes, 100 mm wide, with this corner (x and z), from these heights to 1 m, each joined to the last by two
     /// triangles that meet at 1.1 m.
-    fn tubes(of: &[([f64; 2], f64)]) -> (TriMesh, Vec<Edge>) {
+    fn tubes(of: &[([f64; 2], f64)]) -> (TriMesh, Vec<MeshEdge>) {
         let mut mesh = TriMesh::default();
         let mut last = None;
         for &([left, back], bottom) in of {
@@ -120,7 +120,7 @@ mod tests {
     }
 
     /// Tubes side by side, 50 mm apart.
-    fn legs(bottoms: &[f64]) -> (TriMesh, Vec<Edge>) {
+    fn legs(bottoms: &[f64]) -> (TriMesh, Vec<MeshEdge>) {
         tubes(&bottoms.iter().enumerate().map(|(k, y)| ([0.15 * k as f64, 0.0], *y)).collect::<Vec<_>>())
     }
 
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert!(found[0].top == 1.1 && found[0].bottom == 0.01);
         // The second is the shorter.
-        assert_eq!((found[0].side[0], found[0].side[8]), (Side::Beside, Side::Limb));
+        assert_eq!((found[0].side[0], found[0].side[8]), (JunctionSide::Beside, JunctionSide::Limb));
         let (gaps, way) = apart(&mesh, &found[0], &[0.9, 0.5, 0.005]);
         assert_eq!((way, gaps[2]), (1.0, None));
         assert!(gaps[..2].iter().flatten().all(|gap| (gap - 0.05).abs() < 1e-12), "{gaps:?}");
@@ -142,7 +142,7 @@ mod tests {
         let (mesh, edges) = legs(&[0.5, 0.0, 0.97]);
         let found = junctions(&mesh, &edges, LIMB);
         assert_eq!(found.len(), 1, "the last hangs down by 130 mm");
-        assert_eq!(found[0].side[0], Side::Limb);
+        assert_eq!(found[0].side[0], JunctionSide::Limb);
         let (gaps, way) = apart(&mesh, &found[0], &[0.7]);
         assert!(way == -1.0 && (gaps[0].expect("both") - 0.05).abs() < 1e-12, "{gaps:?}");
     }

@@ -12,7 +12,7 @@ use super::settle::{Calm, come_out, settle, sewn_world};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::{Mannequin, PartKind, Spread};
+use crate::mannequin::{LimbSpread, Mannequin, PartKind};
 use crate::pattern::Garment;
 use back::Carrier;
 use spread::spreads;
@@ -28,7 +28,7 @@ pub struct Stance {
     pub collider: Collider,
     /// The surface as it is.
     own: TriMesh,
-    spreads: Vec<Spread>,
+    spreads: Vec<LimbSpread>,
 }
 
 /// The body that pieces are placed round and sewn on, and what cloth can touch of it: in its stance, if it has one for
@@ -104,7 +104,7 @@ impl Stance {
 }
 
 /// `mesh` with its limbs moved by a share of their spread.
-fn moved(mesh: &TriMesh, spreads: &[Spread], share: f64) -> TriMesh {
+fn moved(mesh: &TriMesh, spreads: &[LimbSpread], share: f64) -> TriMesh {
     let mut mesh = mesh.clone();
     spreads.iter().for_each(|spread| spread.apply(&mut mesh, share));
     mesh

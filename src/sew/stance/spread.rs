@@ -2,7 +2,7 @@
 
 use super::limbs::{Limbs, apart};
 use crate::geometry::Topology;
-use crate::mannequin::{LEVEL, LIMB, Mannequin, Side, Spread, junctions};
+use crate::mannequin::{JunctionSide, LEVEL, LIMB, LimbSpread, Mannequin, junctions};
 
 /// Spread limbs are apart by this share of how far down it is, metres; further down by this much and the other share of
 /// it. The shipped mannequins stand so.
@@ -20,11 +20,11 @@ const SMOOTH: usize = 8;
 
 /// The limbs of `body` that are too near to others to sew between them, with or without its legs, and how they are
 /// spread.
-pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
+pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<LimbSpread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
     let Some(known) = Limbs::new(body) else { return Vec::new() };
-    let mut out: Vec<Spread> = Vec::new();
+    let mut out: Vec<LimbSpread> = Vec::new();
     for junction in junctions(&mesh, &edges, LIMB) {
         let [Some(limb), beside] = known.of(&junction) else { continue };
         if (limb.is_leg() && !legs) || out.iter().any(|spread| spread.kind == limb) {
@@ -36,11 +36,11 @@ pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
         let Some(by) = opening(&gaps) else { continue };
         // Of two legs both give way; what an arm hangs beside stays.
         let sides = match beside.filter(|beside| limb.is_leg() && beside.is_leg()) {
-            Some(beside) => vec![(Side::Limb, limb, 0.5), (Side::Beside, beside, -0.5)],
-            None => vec![(Side::Limb, limb, 1.0)],
+            Some(beside) => vec![(JunctionSide::Limb, limb, 0.5), (JunctionSide::Beside, beside, -0.5)],
+            None => vec![(JunctionSide::Limb, limb, 1.0)],
         };
         for (side, kind, share) in sides {
-            let spread = Spread::new(&junction, side, kind, by.iter().map(|by| by * share * way).collect());
+            let spread = LimbSpread::new(&junction, side, kind, by.iter().map(|by| by * share * way).collect());
             spread.apply(&mut mesh, 1.0);
             out.push(spread);
         }

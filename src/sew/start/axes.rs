@@ -41,7 +41,7 @@ pub(super) struct Axis {
 
 /// A place on an axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Station {
+pub(super) struct AxisPlace {
     /// On the axis.
     pub(super) center: Vec3,
     /// Unit direction, away from the trunk.
@@ -92,10 +92,10 @@ impl Axis {
     }
 
     /// The place `s` metres along it, straight on beyond either end.
-    pub(super) fn station(&self, s: f64) -> Station {
+    pub(super) fn station(&self, s: f64) -> AxisPlace {
         let (from, to, share) = self.between(s);
         let axis = (to.center - from.center).try_normalize(0.0).unwrap_or(from.frame[0]);
-        Station { center: from.center + (to.center - from.center) * share, axis }
+        AxisPlace { center: from.center + (to.center - from.center) * share, axis }
     }
 
     /// Its girth `s` metres along it, metres.

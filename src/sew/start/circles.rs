@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::ends::Ends;
-use super::harmonic::Ring;
+use super::harmonic::OpeningRing;
 use crate::geometry::Vec3;
 use nalgebra::Rotation3;
 
@@ -21,7 +21,7 @@ const POINTS: usize = 12;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mouth<'a> {
     /// Its rim, round the body.
-    pub(super) ring: &'a Ring,
+    pub(super) ring: &'a OpeningRing,
     /// The ends of the body that leave by it.
     pub(super) ends: Ends,
 }
@@ -84,8 +84,8 @@ pub(super) fn room(mouths: &[Mouth], point: Vec3) -> f64 {
 mod tests {
     use super::*;
 
-    fn ring(y: f64, out: f64, radius: f64) -> Ring {
-        Ring {
+    fn ring(y: f64, out: f64, radius: f64) -> OpeningRing {
+        OpeningRing {
             rim: (0..4).collect(),
             angles: (0..4).map(|k| f64::from(k) * TAU / 4.0).collect(),
             frame: [Vec3::z(), Vec3::x() * out],

@@ -3,8 +3,8 @@
 
 use super::ends::Ends;
 use super::girths::Range;
-use super::marks::{Mirror, Stretch};
-use super::openings::Opening;
+use super::marks::{Mirror, RimStretch};
+use super::openings::GluedOpening;
 
 /// An opening too narrow for what would go through it.
 const TOO_NARROW: f64 = 6.0;
@@ -73,7 +73,12 @@ pub(super) fn prior(ends: &[Ends]) -> f64 {
 }
 
 /// The cost of breaking the mirror symmetry of openings.
-pub(super) fn unlike(mirror: &Mirror, openings: &[Opening], stretches: &[Vec<Stretch>], spacing: f64) -> Vec<Vec<f64>> {
+pub(super) fn unlike(
+    mirror: &Mirror,
+    openings: &[GluedOpening],
+    stretches: &[Vec<RimStretch>],
+    spacing: f64,
+) -> Vec<Vec<f64>> {
     let n = openings.len();
     let maps = |i: usize, j: usize| mirror.maps(&stretches[i], &stretches[j], spacing);
     let mut out = vec![vec![0.0; n]; n];

@@ -8,7 +8,7 @@ use nalgebra::{Isometry2, Point2};
 use super::glue::Follow;
 use crate::geometry::{Locator, Vec2, distance_to_segment};
 use crate::mesh::ClothMesh;
-use crate::sew::place::fold::Sheet;
+use crate::sew::place::fold::FoldedPieces;
 
 /// Beside a rim that goes on, cloth within this share of the spacing beyond its closed end lies under it too.
 const BESIDE: f64 = 0.75;
@@ -44,7 +44,7 @@ pub(super) struct Cover {
 
 impl Flap<'_> {
     /// The cloth it covers. `None` where its rim does not lie over the other piece.
-    pub(super) fn cover(&self, mesh: &ClothMesh, sheet: &Sheet) -> Option<Cover> {
+    pub(super) fn cover(&self, mesh: &ClothMesh, sheet: &FoldedPieces) -> Option<Cover> {
         let line: Vec<Vec2> = self.rims[0].iter().map(|p| self.onto(mesh, *p)).collect();
         let mut pairs = Vec::with_capacity(line.len());
         for (p, at) in self.rims[0].iter().zip(&line) {
@@ -69,7 +69,7 @@ impl Flap<'_> {
     }
 
     /// The particles of the lower piece that its rim leads to without a way across the line that the upper rim lies on.
-    fn flood(&self, mesh: &ClothMesh, sheet: &Sheet, line: &[Vec2], pairs: &[[u32; 2]]) -> Vec<u32> {
+    fn flood(&self, mesh: &ClothMesh, sheet: &FoldedPieces, line: &[Vec2], pairs: &[[u32; 2]]) -> Vec<u32> {
         let piece = &mesh.pieces[self.pieces[1]];
         let first = piece.particles.start;
         let mut next: Vec<Vec<u32>> = vec![Vec::new(); piece.particles.len()];
@@ -102,7 +102,7 @@ impl Flap<'_> {
     }
 
     /// Where on the upper piece the particles lie that it covers.
-    fn follows(&self, mesh: &ClothMesh, sheet: &Sheet, covered: &[u32]) -> Option<Vec<(u32, Follow)>> {
+    fn follows(&self, mesh: &ClothMesh, sheet: &FoldedPieces, covered: &[u32]) -> Option<Vec<(u32, Follow)>> {
         let triangles = &mesh.triangles[mesh.pieces[self.pieces[0]].triangles.clone()];
         let open = |t: &&[u32; 3]| !t.iter().any(|p| covered.contains(p) || sheet.hidden[*p as usize]);
         let open: Vec<[u32; 3]> = triangles.iter().filter(open).copied().collect();

@@ -9,8 +9,8 @@ use super::deal_error::DealError;
 use super::ends::{End, Ends};
 use super::girths::Sizes;
 use super::glue::Glued;
-use super::marks::{self, Mirror, Stretch};
-use super::openings::Opening;
+use super::marks::{self, Mirror, RimStretch};
+use super::openings::GluedOpening;
 use super::sides;
 use super::zip;
 use crate::mannequin::Mannequin;
@@ -59,7 +59,7 @@ pub fn deal(
     garment: &Garment,
     mesh: &ClothMesh,
     glued: &Glued,
-    openings: &[Opening],
+    openings: &[GluedOpening],
     body: &Mannequin,
 ) -> Result<Dealing, DealError> {
     let dealing = guess(garment, mesh, glued, openings, body);
@@ -73,7 +73,7 @@ impl Dealing {
         garment: &Garment,
         mesh: &ClothMesh,
         glued: &Glued,
-        openings: &[Opening],
+        openings: &[GluedOpening],
     ) -> Option<DealError> {
         let next = self.runner_up.as_ref().filter(|_| self.margin < CLEAR)?;
         Some(DealError::new(garment, mesh, glued, openings, &self.ends, next, self.margin))
@@ -81,9 +81,15 @@ impl Dealing {
 }
 
 /// The best dealing, be it clear or not.
-pub fn guess(garment: &Garment, mesh: &ClothMesh, glued: &Glued, openings: &[Opening], body: &Mannequin) -> Dealing {
+pub fn guess(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    glued: &Glued,
+    openings: &[GluedOpening],
+    body: &Mannequin,
+) -> Dealing {
     let cloth = Distances::new(glued, mesh);
-    let table = Table::new(garment, mesh, glued, openings, &cloth, &Sizes::of(body));
+    let table = DealCosts::new(garment, mesh, glued, openings, &cloth, &Sizes::of(body));
     let mut dealing = Dealing {
         ends: vec![Ends::NONE; openings.len()],
         front: vec![None; openings.len()],
@@ -116,24 +122,24 @@ pub(super) struct Wearing<'a> {
     pub(super) garment: &'a Garment,
     pub(super) mesh: &'a ClothMesh,
     pub(super) glued: &'a Glued,
-    pub(super) openings: &'a [Opening],
+    pub(super) openings: &'a [GluedOpening],
     /// Distance of every node from every opening.
     pub(super) far: &'a [Vec<f64>],
-    pub(super) stretches: &'a [Vec<Stretch>],
+    pub(super) stretches: &'a [Vec<RimStretch>],
     pub(super) sizes: &'a Sizes,
     pub(super) cloth: &'a Distances<'a>,
 }
 
 /// Costs that do not depend on the other openings, and what tells of pairs of them.
-struct Table<'a> {
+struct DealCosts<'a> {
     cloth: &'a Distances<'a>,
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     glued: &'a Glued,
-    openings: &'a [Opening],
+    openings: &'a [GluedOpening],
     sizes: Sizes,
     far: Vec<Vec<f64>>,
-    stretches: Vec<Vec<Stretch>>,
+    stretches: Vec<Vec<RimStretch>>,
     /// Cost of every set of ends at every opening.
     cost: Vec<[f64; Ends::COUNT]>,
     /// How much of every opening is on the left: from 1 to −1.
@@ -147,12 +153,12 @@ struct Table<'a> {
 /// A dealing and what it costs.
 type Costed = (f64, Vec<Ends>);
 
-impl<'a> Table<'a> {
+impl<'a> DealCosts<'a> {
     fn new(
         garment: &'a Garment,
         mesh: &'a ClothMesh,
         glued: &'a Glued,
-        openings: &'a [Opening],
+        openings: &'a [GluedOpening],
         cloth: &'a Distances<'a>,
         sizes: &Sizes,
     ) -> Self {

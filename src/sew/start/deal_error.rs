@@ -2,7 +2,7 @@
 
 use super::ends::Ends;
 use super::glue::Glued;
-use super::openings::Opening;
+use super::openings::GluedOpening;
 use crate::geometry::MM;
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -37,7 +37,7 @@ impl DealError {
         garment: &Garment,
         mesh: &ClothMesh,
         glued: &Glued,
-        openings: &[Opening],
+        openings: &[GluedOpening],
         best: &[Ends],
         next: &[Ends],
         margin: f64,
@@ -65,7 +65,7 @@ const MOST: usize = 3;
 
 /// The edges that an opening's rim runs along, as `piece.edge`, those with most of it first; the piece alone where it
 /// runs along a fold.
-pub fn edges(garment: &Garment, mesh: &ClothMesh, glued: &Glued, opening: &Opening) -> Vec<String> {
+pub fn edges(garment: &Garment, mesh: &ClothMesh, glued: &Glued, opening: &GluedOpening) -> Vec<String> {
     let mut on_rim = vec![false; glued.count];
     opening.rim.iter().for_each(|&n| on_rim[n as usize] = true);
     let is_on = |p: u32| glued.node_of[p as usize].is_some_and(|n| on_rim[n as usize]);

@@ -10,7 +10,7 @@ use super::openings::rims;
 use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, PleatLayer, SeamKind};
-use crate::sew::place::fold::{Sheet, pressed};
+use crate::sew::place::fold::{FoldedPieces, pressed};
 
 /// No node: of what is left out of the surface.
 const NONE: u32 = u32::MAX;
@@ -114,7 +114,7 @@ fn shift(glued: &Glued, mesh: &ClothMesh) -> f64 {
 struct ToGlue<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
-    sheet: &'a Sheet,
+    sheet: &'a FoldedPieces,
     zips: &'a [[u32; 2]],
 }
 
@@ -225,7 +225,7 @@ fn stitches<'a>(
 }
 
 /// The particles that are turned over at a pressed fold, and not part of a pleat.
-fn turned_over(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<bool> {
+fn turned_over(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<bool> {
     let mut turned = sheet.hidden.clone();
     for seam in garment.seams.iter().filter(|seam| matches!(seam.kind, SeamKind::Pleat(_))) {
         for span in &seam.a {
@@ -244,7 +244,7 @@ fn sewn(mesh: &ClothMesh) -> Vec<bool> {
 
 /// Particles between a seam and a pressed fold beside it, as of a collar that rolls just above its stand: too narrow a
 /// strip to stand up by itself.
-fn strips(mesh: &ClothMesh, sheet: &Sheet) -> Vec<u32> {
+fn strips(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<u32> {
     let is_sewn = sewn(mesh);
     let of_piece = |piece: &PieceMesh| -> Vec<u32> {
         let (sewn, free): (Vec<usize>, Vec<usize>) =
@@ -304,7 +304,7 @@ fn parts(triangles: &[[u32; 3]], count: usize) -> Vec<u32> {
 }
 
 /// Where particles lie that other cloth of their piece lies under, and those that reach beyond a seam of it.
-fn follows(mesh: &ClothMesh, sheet: &Sheet) -> (Vec<Option<Follow>>, Vec<Beyond>) {
+fn follows(mesh: &ClothMesh, sheet: &FoldedPieces) -> (Vec<Option<Follow>>, Vec<Beyond>) {
     let mut out = vec![None; mesh.flat.len()];
     let mut beyond = Vec::new();
     let is_sewn = sewn(mesh);

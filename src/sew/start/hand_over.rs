@@ -36,13 +36,13 @@ const SEAMS: usize = 3;
 pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Vec<Vec3> {
     let covered = glued.laps.iter().flat_map(|lap| &lap.covered).map(|(p, on)| (*p as usize, *on)).collect();
     let hidden = glued.follows.iter().enumerate().filter_map(|(p, on)| Some((p, (*on)?))).collect();
-    let mut laying = Laying::new(mesh, glued, nodes);
+    let mut laying = ParticleLaying::new(mesh, glued, nodes);
     laying.unzip(mesh, glued);
     laying.follow(covered);
     laying.lift(mesh, glued);
     laying.cross(mesh, glued);
     laying.follow(hidden);
-    let seams = Seams::new(mesh);
+    let seams = SeamJoints::new(mesh);
     hang(garment, mesh, &seams, glued, &mut laying);
     laying.lay_flat(garment, mesh, glued);
     let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| laying.x[p].is_none());
@@ -59,14 +59,14 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
 }
 
 /// Particles on their way to a place.
-struct Laying {
+struct ParticleLaying {
     /// Where they lie; `None` for those that have no place yet.
     x: Vec<Option<Vec3>>,
     /// How those that have one lie over the surface.
     plies: Vec<Ply>,
 }
 
-impl Laying {
+impl ParticleLaying {
     /// The particles of the surface at its nodes.
     fn new(mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Self {
         let surface = TriMesh { vertices: nodes.to_vec(), triangles: glued.triangles.clone() };
@@ -224,7 +224,7 @@ struct Stitch {
 }
 
 /// A stitch seen from one of its pieces.
-struct Joint {
+struct StitchSide {
     pieces: [usize; 2],
     at: u32,
     to: u32,
@@ -238,7 +238,7 @@ fn beside_stitch(i: usize, count: usize) -> [usize; 2] {
 }
 
 /// All stitches, from either side.
-fn joints(mesh: &ClothMesh) -> Vec<Joint> {
+fn joints(mesh: &ClothMesh) -> Vec<StitchSide> {
     let mut out = Vec::new();
     for seam in &mesh.seams {
         for (i, pair) in seam.pairs.iter().enumerate() {
@@ -246,8 +246,8 @@ fn joints(mesh: &ClothMesh) -> Vec<Joint> {
             let way = |k: usize| (mesh.flat[run[1][k] as usize] - mesh.flat[run[0][k] as usize]).try_normalize(0.0);
             let pieces = pair.map(|p| mesh.piece_of(p));
             if let ([Some(one), Some(other)], Some(a), Some(b)) = (pieces, way(0), way(1)) {
-                out.push(Joint { pieces: [one, other], at: pair[0], to: pair[1], along: [a, b] });
-                out.push(Joint { pieces: [other, one], at: pair[1], to: pair[0], along: [b, a] });
+                out.push(StitchSide { pieces: [one, other], at: pair[0], to: pair[1], along: [a, b] });
+                out.push(StitchSide { pieces: [other, one], at: pair[1], to: pair[0], along: [b, a] });
             }
         }
     }
@@ -260,16 +260,16 @@ struct Hosts<'a> {
     mesh: &'a ClothMesh,
     /// The triangles of every piece of which all corners have a place.
     grounds: Vec<Option<Locator<'a>>>,
-    seams: &'a Seams,
+    seams: &'a SeamJoints,
 }
 
 /// The joints of all seams, whether their cloth has a place or not.
-struct Seams {
+struct SeamJoints {
     classes: Classes,
-    joints: Vec<Joint>,
+    joints: Vec<StitchSide>,
 }
 
-impl Seams {
+impl SeamJoints {
     fn new(mesh: &ClothMesh) -> Self {
         Self { classes: Classes::new(mesh), joints: joints(mesh) }
     }
@@ -283,14 +283,14 @@ fn open(mesh: &ClothMesh, x: &[Option<Vec3>]) -> Vec<Vec<[u32; 3]>> {
 }
 
 impl<'a> Hosts<'a> {
-    fn new(garment: &'a Garment, mesh: &'a ClothMesh, seams: &'a Seams, open: &'a [Vec<[u32; 3]>]) -> Self {
+    fn new(garment: &'a Garment, mesh: &'a ClothMesh, seams: &'a SeamJoints, open: &'a [Vec<[u32; 3]>]) -> Self {
         let ground = |open: &'a Vec<[u32; 3]>| (!open.is_empty()).then(|| Locator::new(&mesh.flat, open, mesh.spacing));
         Self { garment, mesh, grounds: open.iter().map(ground).collect(), seams }
     }
 
     /// Lays a particle so far along a seam from a stitch and across it into the host's cloth, metres, and so many
     /// layers out of that.
-    fn place(&self, p: usize, near: &Stitch, [along, across]: [f64; 2], layers: f64, laying: &mut Laying) {
+    fn place(&self, p: usize, near: &Stitch, [along, across]: [f64; 2], layers: f64, laying: &mut ParticleLaying) {
         let straight_on = || near.place + near.along * along + near.across * across;
         let at = near.host_flat + near.host_along * along + near.host_across * across;
         let (host, at) = self.across_seams(near.host, at, &laying.x);
@@ -315,7 +315,7 @@ impl<'a> Hosts<'a> {
             if self.grounds[host].as_ref().is_none_or(is_inside) {
                 break;
             }
-            let far = |joint: &&Joint| (mesh.flat[joint.at as usize] - at).norm();
+            let far = |joint: &&StitchSide| (mesh.flat[joint.at as usize] - at).norm();
             let own =
                 self.seams.joints.iter().filter(|joint| joint.pieces[0] == host && x[joint.to as usize].is_some());
             let Some(joint) = own.min_by(|a, b| far(a).total_cmp(&far(b))) else { break };
@@ -445,7 +445,7 @@ fn nearest(stitches: &[Stitch], at: Vec2) -> Option<&Stitch> {
 }
 
 /// Lays a piece from its seams over the cloth that it is sewn to. Returns whether it is sewn to any that has a place.
-fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, laying: &mut Laying) -> bool {
+fn lay(garment: &Garment, mesh: &ClothMesh, seams: &SeamJoints, piece: usize, laying: &mut ParticleLaying) -> bool {
     let open = open(mesh, &laying.x);
     let hosts = Hosts::new(garment, mesh, seams, &open);
     let stitches = hosts.stitches(piece, On::OwnSide, &laying.x);
@@ -464,7 +464,7 @@ fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, laying:
 
 /// Puts what is turned over beyond the seam of its piece on the cloth beyond that seam, as a collar falls over its
 /// stand.
-fn hang(garment: &Garment, mesh: &ClothMesh, seams: &Seams, glued: &Glued, laying: &mut Laying) {
+fn hang(garment: &Garment, mesh: &ClothMesh, seams: &SeamJoints, glued: &Glued, laying: &mut ParticleLaying) {
     for (i, piece) in mesh.pieces.iter().enumerate() {
         let is_own = |beyond: &&Beyond| piece.particles.contains(&(beyond.particle as usize));
         let own: Vec<&Beyond> = glued.beyond.iter().filter(is_own).collect();

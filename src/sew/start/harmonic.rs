@@ -25,7 +25,7 @@ const HANDOVER: f64 = 0.1;
 
 /// An opening as a ring round an axis.
 #[derive(Clone, Debug)]
-pub(super) struct Ring {
+pub(super) struct OpeningRing {
     /// The nodes of the rim.
     pub(super) rim: Vec<u32>,
     /// How far round the ring each is, radians: rising, by less than a full turn in all.
@@ -42,7 +42,7 @@ pub(super) struct Ring {
     pub(super) saddle: f64,
 }
 
-impl Ring {
+impl OpeningRing {
     /// The direction from the middle at this angle, radians.
     pub(super) fn way(&self, angle: f64) -> Vec3 {
         self.frame[0] * angle.cos() + self.frame[1] * angle.sin()
@@ -87,7 +87,7 @@ pub(super) struct Film<'a> {
 impl<'a> Film<'a> {
     /// Prepares the equation for `count` nodes joined by `edges` of which those of the `rings` are given. `None` when
     /// nothing is free, or the system cannot be factored.
-    pub(super) fn new(count: usize, edges: &'a [Length], rings: &[Ring]) -> Option<Self> {
+    pub(super) fn new(count: usize, edges: &'a [Length], rings: &[OpeningRing]) -> Option<Self> {
         let mut row: Vec<Option<u32>> = vec![Some(0); count];
         rings.iter().flat_map(|ring| &ring.rim).for_each(|n| row[*n as usize] = None);
         let mut free = 0;
@@ -161,7 +161,7 @@ impl<'a> Film<'a> {
     }
 
     /// Where every node starts between the `rings`, along the `limbs` at the distance on the cloth from their rings.
-    pub(super) fn start(&self, rings: &[Ring], limbs: &[Limb]) -> Vec<Vec3> {
+    pub(super) fn start(&self, rings: &[OpeningRing], limbs: &[Limb]) -> Vec<Vec3> {
         let count = self.row.len();
         let mut places = vec![Vec3::zeros(); count];
         let mut centers = places.clone();
@@ -178,14 +178,14 @@ impl<'a> Film<'a> {
         for limb in limbs {
             self.wind(&mut x, &rings[limb.ring], limb, &radii);
         }
-        for (n, place) in rings.iter().flat_map(Ring::places) {
+        for (n, place) in rings.iter().flat_map(OpeningRing::places) {
             x[n] = place;
         }
         x
     }
 
     /// Winds what belongs to a limb round its axis, as far from the ring along it as on the cloth.
-    fn wind(&self, x: &mut [Vec3], ring: &Ring, limb: &Limb, radii: &[f64]) {
+    fn wind(&self, x: &mut [Vec3], ring: &OpeningRing, limb: &Limb, radii: &[f64]) {
         let Some(along) = ring.along else { return };
         for (n, x) in x.iter_mut().enumerate() {
             let s = along - limb.distance[n];
@@ -205,7 +205,7 @@ impl<'a> Film<'a> {
 
 /// The angle of every node round the axis of a ring: given on its rim, free everywhere else. `None` where the system
 /// cannot be factored.
-pub(super) fn angles(count: usize, edges: &[Length], ring: &Ring, jumps: &Jumps) -> Option<Vec<f64>> {
+pub(super) fn angles(count: usize, edges: &[Length], ring: &OpeningRing, jumps: &Jumps) -> Option<Vec<f64>> {
     let mut given = vec![0.0; count];
     ring.rim.iter().zip(&ring.angles).for_each(|(n, angle)| given[*n as usize] = *angle);
     Some(Film::new(count, edges, std::slice::from_ref(ring))?.spread_with(&given, jumps))
@@ -252,9 +252,9 @@ mod tests {
         out
     }
 
-    fn ring(first: u32, around: u32, y: f64) -> Ring {
+    fn ring(first: u32, around: u32, y: f64) -> OpeningRing {
         let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(around);
-        Ring {
+        OpeningRing {
             rim: (first..first + around).collect(),
             angles: (0..around).map(angle).collect(),
             frame: [Vec3::x(), Vec3::z()],

@@ -10,7 +10,7 @@ use super::glue::Follow;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
-use crate::sew::place::fold::Sheet;
+use crate::sew::place::fold::FoldedPieces;
 use crate::sew::place::lay::fit;
 
 /// A rim goes on closed beyond its last button for this much, metres, or for the distance between two buttons if that
@@ -57,12 +57,12 @@ pub struct Lap {
 }
 
 /// The laps of a garment: where closures hold a rim, and where that goes on across a seam.
-pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<Lap> {
+pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Lap> {
     let mut all = fastenings(garment);
     all.sort_by_key(|f| f.row);
     let partners = partners(mesh);
     let held = of_one_lap(garment, &all);
-    let mut rows: Vec<Row> = held.iter().filter_map(|row| Row::new(garment, mesh, &partners, row)).collect();
+    let mut rows: Vec<RimPair> = held.iter().filter_map(|row| RimPair::new(garment, mesh, &partners, row)).collect();
     let mut next = 0;
     while next < rows.len() {
         for end in 0..2 {
@@ -76,7 +76,7 @@ pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<La
 
 /// Where a closure joins two pieces; what lies under comes first.
 #[derive(Clone)]
-struct Joint {
+struct ClosureJoint {
     /// The edges nearest to the two points, and how far along them they are, metres.
     ends: [RimSpot; 2],
     /// The two points, each with its piece.
@@ -85,7 +85,7 @@ struct Joint {
     reach: f64,
 }
 
-impl Joint {
+impl ClosureJoint {
     fn new(garment: &Garment, fastening: &Fastening) -> Self {
         let points = garment.closures[fastening.tack[0]].tacks[fastening.tack[1]];
         Self { ends: fastening.ends, points, reach: fastening.reach }
@@ -104,15 +104,15 @@ impl Joint {
 
 /// What closures join, by the lap that it holds: rows of one closure, and those of others between the same two pieces
 /// that the same turn and shift brings together. The first closure says which piece lies over.
-fn of_one_lap(garment: &Garment, all: &[Fastening]) -> Vec<Vec<Joint>> {
-    let mut laps: Vec<Vec<Joint>> = Vec::new();
+fn of_one_lap(garment: &Garment, all: &[Fastening]) -> Vec<Vec<ClosureJoint>> {
+    let mut laps: Vec<Vec<ClosureJoint>> = Vec::new();
     for row in all.chunk_by(|a, b| a.row == b.row) {
-        let mut row: Vec<Joint> = row.iter().map(|f| Joint::new(garment, f)).collect();
+        let mut row: Vec<ClosureJoint> = row.iter().map(|f| ClosureJoint::new(garment, f)).collect();
         let [own, met] = row[0].pieces();
         if own != met && laps.iter().any(|lap| lap[0].pieces() == [met, own]) {
-            row = row.into_iter().map(Joint::swapped).collect();
+            row = row.into_iter().map(ClosureJoint::swapped).collect();
         }
-        let goes_on = |lap: &&mut Vec<Joint>| {
+        let goes_on = |lap: &&mut Vec<ClosureJoint>| {
             let points: Vec<[Vec2; 2]> = lap.iter().chain(&row).map(|joint| joint.points.map(|end| end.1)).collect();
             let meet = |map: &Isometry2<f64>| points.iter().all(|[a, b]| (onto(map, *a) - b).norm() <= ONE_LAP);
             lap[0].pieces() == row[0].pieces() && fit(&points).is_some_and(|map| meet(&map))
@@ -129,7 +129,7 @@ fn of_one_lap(garment: &Garment, all: &[Fastening]) -> Vec<Vec<Joint>> {
 type Partners = HashMap<u32, Vec<u32>>;
 
 /// Two rims of which one lies over the other; what lies under comes first.
-struct Row {
+struct RimPair {
     edges: [EdgeId; 2],
     /// Particles of the rims where they are closed, side by side.
     rims: [Vec<u32>; 2],
@@ -143,9 +143,9 @@ struct Row {
     is_held: bool,
 }
 
-impl Row {
+impl RimPair {
     /// Of a row of fastenings; none where its two rims are one point.
-    fn new(garment: &Garment, mesh: &ClothMesh, partners: &Partners, row: &[Joint]) -> Option<Self> {
+    fn new(garment: &Garment, mesh: &ClothMesh, partners: &Partners, row: &[ClosureJoint]) -> Option<Self> {
         let mut edges = row.first()?.ends.map(|end| end.edge);
         let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
         let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| f.points).collect();
@@ -291,7 +291,7 @@ impl Row {
     }
 
     /// The lap: the upper rim over the cloth under it, or against the other rim where it does not reach over that.
-    fn lap(&self, mesh: &ClothMesh, sheet: &Sheet) -> Option<Lap> {
+    fn lap(&self, mesh: &ClothMesh, sheet: &FoldedPieces) -> Option<Lap> {
         let [under, over] = self.pieces();
         let flap = |to_under| Flap {
             pieces: [over, under],

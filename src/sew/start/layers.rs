@@ -12,7 +12,7 @@ use crate::pattern::{Garment, patches};
 ///
 /// `sets` are the particles as they are welded; `is_out` those that are not part of the surface.
 pub(super) fn left_out(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Vec<usize> {
-    let table = Table::new(garment, mesh, is_out);
+    let table = LayerGraph::new(garment, mesh, is_out);
     let root: Vec<u32> = (0..mesh.flat.len() as u32).map(|p| sets.root(p)).collect();
     let mut out: BTreeSet<usize> = patches(garment).into_iter().collect();
     loop {
@@ -24,14 +24,14 @@ pub(super) fn left_out(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], set
 }
 
 /// Pieces and what joins them.
-struct Table<'a> {
+struct LayerGraph<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     is_out: &'a [bool],
     piece_of: Vec<usize>,
 }
 
-impl<'a> Table<'a> {
+impl<'a> LayerGraph<'a> {
     fn new(garment: &'a Garment, mesh: &'a ClothMesh, is_out: &'a [bool]) -> Self {
         let mut piece_of = vec![0; mesh.flat.len()];
         for (i, piece) in mesh.pieces.iter().enumerate() {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::glue::Glued;
-use super::openings::Opening;
+use super::openings::GluedOpening;
 use crate::geometry::{Vec2, box_of};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, Place, PlaceMeaning, PlaceWord, Side, TrunkLevel};
@@ -25,7 +25,7 @@ const SLIT_STEP: f64 = 2.5;
 
 /// A stretch of an opening's rim on one piece.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch {
+pub(super) struct RimStretch {
     pub(super) piece: usize,
     /// Number of particles.
     pub(super) count: usize,
@@ -85,7 +85,7 @@ impl Mirror {
     /// The share of the cloth that an opening is sewn to, directly or through other pieces, which is the same on both
     /// sides of the opening's own plane of symmetry: 1 for the neck of a symmetric T-shirt, little for a round cuff on
     /// a sleeve of which there is only one.
-    pub(super) fn symmetric_share(&self, opening: &[Stretch]) -> f64 {
+    pub(super) fn symmetric_share(&self, opening: &[RimStretch]) -> f64 {
         let pieces = || opening.iter().map(|stretch| stretch.piece);
         let is_mate = |[one, other]: [usize; 2]| self.mates[one].contains(&other);
         let pairs = pieces().flat_map(|a| pieces().map(move |b| [a, b])).filter(|pair| is_mate(*pair)).collect();
@@ -110,8 +110,8 @@ impl Mirror {
     }
 
     /// Whether the mirror image of one opening is like another.
-    pub(super) fn maps(&self, one: &[Stretch], other: &[Stretch], spacing: f64) -> bool {
-        let near = |a: &Stretch, b: &Stretch| {
+    pub(super) fn maps(&self, one: &[RimStretch], other: &[RimStretch], spacing: f64) -> bool {
+        let near = |a: &RimStretch, b: &RimStretch| {
             let most = a.count.max(b.count) as f64;
             let shift = Vec2::new(a.middle.x + b.middle.x, a.middle.y - b.middle.y);
             self.mates[a.piece].contains(&b.piece)
@@ -168,7 +168,7 @@ fn is_mirrored(one: &[Vec2], other: &[Vec2], tolerance: f64) -> bool {
 }
 
 /// The pieces on an opening's rim, longest first.
-pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[Opening]) -> Vec<Vec<Stretch>> {
+pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[GluedOpening]) -> Vec<Vec<RimStretch>> {
     let mut on_rim: Vec<Vec<usize>> = vec![Vec::new(); glued.count];
     for (i, opening) in openings.iter().enumerate() {
         opening.rim.iter().for_each(|&n| on_rim[n as usize].push(i));
@@ -189,23 +189,23 @@ pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[Opening]) -
     let list = |pieces: BTreeMap<usize, Vec<Vec2>>| {
         // One particle is where another piece's rim ends.
         let long = pieces.into_iter().filter(|(_, points)| points.len() > 1);
-        let mut list: Vec<Stretch> = long.map(|(piece, points)| stretch(piece, &points)).collect();
+        let mut list: Vec<RimStretch> = long.map(|(piece, points)| stretch(piece, &points)).collect();
         list.sort_by_key(|s| (std::cmp::Reverse(s.count), s.piece));
         list
     };
     found.into_iter().map(list).collect()
 }
 
-fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2], is_crossed: bool) -> Stretch {
+fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2], is_crossed: bool) -> RimStretch {
     let [low, high] = box_of(mesh.pieces[piece].particles.clone().map(|p| mesh.flat[p]));
     let middle = points.iter().sum::<Vec2>() / points.len() as f64 - 0.5 * (low + high);
     let height = middle.y / (0.5 * (high.y - low.y)).max(1e-9);
     let is_band = (high - low).min() < BAND;
-    Stretch { piece, count: points.len(), middle, height, is_band, is_crossed }
+    RimStretch { piece, count: points.len(), middle, height, is_band, is_crossed }
 }
 
 /// Whether an opening is a hole or a slit within one piece: its rim closes there as it is drawn.
-pub(super) fn is_cut_out(mesh: &ClothMesh, opening: &Opening) -> bool {
+pub(super) fn is_cut_out(mesh: &ClothMesh, opening: &GluedOpening) -> bool {
     let Some(piece) = opening.sides.first().and_then(|side| mesh.piece_of(side[0])) else { return false };
     let own = &mesh.pieces[piece].particles;
     let (on, off): (Vec<[u32; 2]>, Vec<[u32; 2]>) =
@@ -215,12 +215,12 @@ pub(super) fn is_cut_out(mesh: &ClothMesh, opening: &Opening) -> bool {
 }
 
 /// Mean of a value that depends on the height in the drawing (−1 at its top, 1 at its bottom) over an opening's rim.
-pub(super) fn by_height(stretches: &[Stretch], value: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn by_height(stretches: &[RimStretch], value: impl Fn(f64) -> f64) -> f64 {
     shared(stretches, |s| if s.is_band { BAND_SAYS } else { 1.0 } * value(s.height))
 }
 
 /// Mean of a value over an opening's rim.
-fn shared(stretches: &[Stretch], value: impl Fn(&Stretch) -> f64) -> f64 {
+fn shared(stretches: &[RimStretch], value: impl Fn(&RimStretch) -> f64) -> f64 {
     let count: usize = stretches.iter().map(|s| s.count).sum();
     stretches.iter().map(|s| value(s) * s.count as f64).sum::<f64>() / count.max(1) as f64
 }
@@ -272,11 +272,11 @@ fn facing(garment: &Garment, piece: usize) -> f64 {
 }
 
 /// How much of an opening is on the left rather than on the right: from 1 to −1.
-pub(super) fn sidedness(garment: &Garment, stretches: &[Stretch]) -> f64 {
+pub(super) fn sidedness(garment: &Garment, stretches: &[RimStretch]) -> f64 {
     shared(stretches, |s| if s.is_crossed { 0.0 } else { side_of(garment, s.piece) })
 }
 
 /// The share of an opening on pieces that fail a test.
-pub(super) fn share(stretches: &[Stretch], fails: impl Fn(usize) -> bool) -> f64 {
+pub(super) fn share(stretches: &[RimStretch], fails: impl Fn(usize) -> bool) -> f64 {
     shared(stretches, |s| f64::from(fails(s.piece)))
 }

@@ -54,7 +54,7 @@ pub use deal_error::{DealError, Doubt, edges};
 pub use ends::{End, Ends};
 pub use glue::{Follow, Glued, glue};
 pub use laps::Lap;
-pub use openings::{Opening, openings};
+pub use openings::{GluedOpening, openings};
 pub use sketch::{Sketch, SketchedOpening, sketch};
 pub use words::Settling;
 
@@ -66,9 +66,9 @@ use crate::pattern::{Garment, PlaceWord};
 use axes::Axes;
 use balloon::{Balloon, Held, Length};
 use circles::Mouth;
-use harmonic::{Film, Limb, Ring, angles};
+use harmonic::{Film, Limb, OpeningRing, angles};
 use profile::Profile;
-use rings::{FIRST, Worn, limb_of};
+use rings::{FIRST, WornOpenings, limb_of};
 use sections::sections;
 use star::GluedPart;
 
@@ -109,7 +109,7 @@ pub(crate) fn start_on(
 
 /// A glued garment on the film between its openings.
 struct OnFilm<'a> {
-    worn: &'a [Worn<'a>],
+    worn: &'a [WornOpenings<'a>],
     edges: &'a [Length],
     rings: &'a [PartRing],
     limbs: &'a [Limb<'a>],
@@ -119,7 +119,7 @@ struct OnFilm<'a> {
 /// A ring of a connected part.
 #[derive(Clone, Debug)]
 struct PartRing {
-    ring: Ring,
+    ring: OpeningRing,
     /// Number of the part.
     part: u32,
     /// The ends of the body that leave by it.
@@ -129,7 +129,7 @@ struct PartRing {
 /// A glued garment with the ends of the body dealt out to its openings.
 struct Dealt {
     glued: Glued,
-    openings: Vec<Opening>,
+    openings: Vec<GluedOpening>,
     dealing: Dealing,
     /// The other dealing that fits about as well, if there is one.
     doubt: Option<DealError>,
@@ -164,7 +164,7 @@ impl Dealt {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
         let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
-        let plain: Vec<Ring> = rings.iter().map(|of| of.ring.clone()).collect();
+        let plain: Vec<OpeningRing> = rings.iter().map(|of| of.ring.clone()).collect();
         let nodes = Film::new(self.glued.count, &edges, &plain)?.start(&plain, &limbs);
         Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, limbs: &limbs, nodes }))
     }
@@ -224,7 +224,7 @@ impl Dealt {
     }
 
     /// The openings of every connected part.
-    fn worn<'a>(&'a self, garment: &Garment, mesh: &'a ClothMesh) -> Vec<Worn<'a>> {
+    fn worn<'a>(&'a self, garment: &Garment, mesh: &'a ClothMesh) -> Vec<WornOpenings<'a>> {
         let cloth = Distances::new(&self.glued, mesh);
         let parts = self.glued.part_of.iter().max().map_or(0, |last| last + 1);
         let of_part = |part: u32| {
@@ -232,7 +232,7 @@ impl Dealt {
             let far: Vec<Vec<f64>> = own.iter().map(|&k| cloth.from(&self.openings[k].rim)).collect();
             let profile =
                 |(&k, far): (&usize, &Vec<f64>)| Profile::new(&self.glued, &cloth, self.openings[k].length, far);
-            Worn {
+            WornOpenings {
                 flat: &mesh.flat,
                 words: self.words(garment, mesh, part),
                 above: own.iter().map(|&k| self.above(mesh, &cloth, k)).collect(),
@@ -322,7 +322,7 @@ impl Dealt {
 
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
-    worn: &'a [Worn],
+    worn: &'a [WornOpenings],
     glued: &Glued,
     edges: &[Length],
     axes: &'a Axes,

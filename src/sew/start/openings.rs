@@ -18,7 +18,7 @@ const LEAST: usize = 5;
 
 /// An opening of the glued surface.
 #[derive(Clone, Debug)]
-pub struct Opening {
+pub struct GluedOpening {
     /// Nodes of its rim in order, as the triangles run.
     pub rim: Vec<u32>,
     /// The particles of every side of the rim, on the piece that has it: from each node to the next.
@@ -32,7 +32,7 @@ pub struct Opening {
 }
 
 /// The openings of a glued surface, in the order of their first nodes.
-pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<Opening> {
+pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<GluedOpening> {
     let cloth = Distances::new(glued, mesh);
     let particles = side_particles(glued, mesh);
     let rims: Vec<Vec<u32>> = rims(glued).into_iter().filter(|rim| rim.len() >= LEAST).collect();
@@ -45,7 +45,7 @@ pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<Opening> {
         let step = |[a, b]: &[u32; 2]| (mesh.flat[*b as usize] - mesh.flat[*a as usize]).norm();
         let length: f64 = sides.iter().map(step).sum();
         let girth = least_parallel(glued, &cloth, &fields[i], NEAR.min(SHARE * next)).map_or(length, |g| g.min(length));
-        Opening { rim: rim.clone(), sides, part: glued.part_of[rim[0] as usize], length, girth }
+        GluedOpening { rim: rim.clone(), sides, part: glued.part_of[rim[0] as usize], length, girth }
     };
     rims.iter().enumerate().map(opening).collect()
 }

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::axes::{Axes, Axis, Station};
+use super::axes::{Axes, Axis, AxisPlace};
 use super::ends::Ends;
-use super::harmonic::Ring;
-use super::openings::Opening;
+use super::harmonic::OpeningRing;
+use super::openings::GluedOpening;
 use super::profile::{Profile, best_height};
 use super::winding::{Jumps, jumps};
 use crate::geometry::{Vec2, Vec3};
@@ -38,11 +38,11 @@ const LOWERED: f64 = 0.5;
 const SADDLE: f64 = 0.1;
 
 /// The openings of one connected garment, and what is known of them.
-pub(super) struct Worn<'a> {
+pub(super) struct WornOpenings<'a> {
     /// Flat positions of all particles, metres.
     pub(super) flat: &'a [Vec2],
     /// The openings.
-    pub(super) openings: Vec<&'a Opening>,
+    pub(super) openings: Vec<&'a GluedOpening>,
     /// The ends of the body that pass through each.
     pub(super) ends: Vec<Ends>,
     /// For each opening the distance of every node from it on the cloth, metres.
@@ -72,7 +72,7 @@ pub(super) struct Neckline {
 /// Where a ring is.
 #[derive(Clone, Copy, Debug)]
 struct Seat {
-    station: Station,
+    station: AxisPlace,
     /// Of a ring round an arm or a leg: how far along its axis, metres.
     along: Option<f64>,
 }
@@ -83,9 +83,9 @@ struct Turn {
     values: Vec<f64>,
 }
 
-impl Worn<'_> {
+impl WornOpenings<'_> {
     /// A ring for every opening that something passes through.
-    pub(super) fn rings(&self, axes: &Axes) -> Vec<Option<Ring>> {
+    pub(super) fn rings(&self, axes: &Axes) -> Vec<Option<OpeningRing>> {
         let Some(torso) = axes.part(PartKind::Torso) else { return vec![None; self.openings.len()] };
         let top = self.top();
         let seat_of_top = top.map(|k| self.seat(k, axes, torso, None));
@@ -143,8 +143,8 @@ impl Worn<'_> {
             return Seat { station: axis.station(s), along: Some(s) };
         }
         if let Some(axis) = limb_of(ends.others()).and_then(|kind| axes.part(kind)) {
-            let Station { center, axis } = axis.station(self.on_limb(k, axis));
-            return Seat { station: Station { center, axis: -axis }, along: None };
+            let AxisPlace { center, axis } = axis.station(self.on_limb(k, axis));
+            return Seat { station: AxisPlace { center, axis: -axis }, along: None };
         }
         let neck = torso.station(torso.length());
         if ends.touches(Ends::LEGS) {
@@ -153,12 +153,12 @@ impl Worn<'_> {
         if ends == Ends::ARMS {
             let joints = [PartKind::LeftArm, PartKind::RightArm].map(|arm| axes.part(arm).map(|arm| arm.station(0.0)));
             let middle = joints.iter().flatten().map(|joint| joint.center).sum::<Vec3>() / 2.0;
-            return Seat { station: Station { center: middle, axis: -Vec3::z() }, along: None };
+            return Seat { station: AxisPlace { center: middle, axis: -Vec3::z() }, along: None };
         }
         if ends.has(Ends::TOP) {
             if let Some(y) = self.above_crotch(k, axes, torso) {
                 let s = torso.nearest(Vec3::new(0.0, y, torso.station(0.0).center.z));
-                return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
+                return Seat { station: AxisPlace { axis: Vec3::y(), ..torso.station(s) }, along: None };
             }
             let arms = axes.part(PartKind::LeftArm).map(|arm| torso.nearest(arm.station(0.0).center));
             let highest = arms.unwrap_or_else(|| torso.length());
@@ -166,7 +166,7 @@ impl Worn<'_> {
             let waist = torso.landmark(PlaceWord::Waist.name()).filter(|_| is_at_waist);
             let range = waist.map_or([0.0, highest], |at| [at - AT_WAIST, at + AT_WAIST]);
             let s = best_height(&self.profiles[k], torso, range.map(|s| s.clamp(0.0, highest)));
-            return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
+            return Seat { station: AxisPlace { axis: Vec3::y(), ..torso.station(s) }, along: None };
         }
         if let Some(station) = self.over_neck(k, neck) {
             return Seat { station, along: None };
@@ -181,15 +181,15 @@ impl Worn<'_> {
                 axis += joint.axis;
             }
         }
-        Seat { station: Station { center, axis: axis.normalize() }, along: None }
+        Seat { station: AxisPlace { center, axis: axis.normalize() }, along: None }
     }
 
     /// The opening of a hood or a collar, over the seam that joins it to the rest: as high above the neck's base as
     /// on the cloth. A hood stands up as a tube: without a head, or before it is drawn over one.
-    fn over_neck(&self, k: usize, neck: Station) -> Option<Station> {
+    fn over_neck(&self, k: usize, neck: AxisPlace) -> Option<AxisPlace> {
         let above = self.above[k].as_ref()?;
         let mean = above.iter().sum::<f64>() / above.len() as f64;
-        Some(Station { center: neck.center + Vec3::y() * mean.max(ABOVE_NECK), axis: Vec3::y() })
+        Some(AxisPlace { center: neck.center + Vec3::y() * mean.max(ABOVE_NECK), axis: Vec3::y() })
     }
 
     /// The height of a waist's opening whose cloth has a crotch: as far above the body's as on the cloth, but for the
@@ -263,7 +263,7 @@ impl Worn<'_> {
     }
 
     /// Round trunk and legs, as far down as the cloth reaches from the `top`.
-    fn below(&self, k: usize, torso: &Axis, top: Option<(usize, Seat)>) -> Station {
+    fn below(&self, k: usize, torso: &Axis, top: Option<(usize, Seat)>) -> AxisPlace {
         let crotch = torso.station(0.0).center;
         let y = top.map_or(crotch.y, |(top, seat)| {
             let length = self.median(k, top);
@@ -272,11 +272,11 @@ impl Worn<'_> {
             (seat.station.center.y - drop).max(LOWEST)
         });
         let on_trunk = torso.station(torso.nearest(Vec3::new(crotch.x, y, crotch.z))).center;
-        Station { center: Vec3::new(on_trunk.x, y, on_trunk.z), axis: -Vec3::y() }
+        AxisPlace { center: Vec3::new(on_trunk.x, y, on_trunk.z), axis: -Vec3::y() }
     }
 
     /// The ring of opening `k` in its seat, its nodes as far apart as on the rim.
-    fn ring(&self, k: usize, Seat { station: Station { center, axis }, along }: Seat) -> Ring {
+    fn ring(&self, k: usize, Seat { station: AxisPlace { center, axis }, along }: Seat) -> OpeningRing {
         let opening = self.openings[k];
         // The rings of two wide legs stay beside one another.
         let most =
@@ -296,11 +296,11 @@ impl Worn<'_> {
         });
         let angles = phases.iter().map(|phase| phase + turn).collect();
         let saddle = if self.ends[k] == Ends::ARMS { SADDLE } else { 0.0 };
-        Ring { rim: opening.rim.clone(), angles, frame: [front, side], center, radius, along, saddle }
+        OpeningRing { rim: opening.rim.clone(), angles, frame: [front, side], center, radius, along, saddle }
     }
 
     /// How far round an opening each node of its rim is, radians, as on the rim.
-    fn phases(&self, opening: &Opening) -> Vec<f64> {
+    fn phases(&self, opening: &GluedOpening) -> Vec<f64> {
         let mut at = 0.0;
         let mut phases = Vec::with_capacity(opening.rim.len());
         for [a, b] in &opening.sides {

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::balloon::Held;
-use super::harmonic::{Limb, Ring};
+use super::harmonic::{Limb, OpeningRing};
 
 /// Sections are so far apart on the cloth, metres: two rows of a start mesh, so that each has nodes all round.
 const STEP: f64 = 0.05;
@@ -12,7 +12,7 @@ const OPEN: f64 = FRAC_PI_2;
 
 /// The sections of the tube round a leg, from its ring up to where it opens towards the trunk: pressure would press
 /// their inner sides against the axes. None of an arm, which may be wide and hang below it.
-pub(super) fn sections(ring: &Ring, limb: &Limb) -> Vec<Held> {
+pub(super) fn sections(ring: &OpeningRing, limb: &Limb) -> Vec<Held> {
     let Some(along) = ring.along.filter(|_| !limb.axis.kind.is_arm()) else { return Vec::new() };
     let is_own = |n: usize| limb.other.is_none_or(|other| limb.distance[n] < other[n]);
     let own: Vec<usize> = (0..limb.distance.len()).filter(|n| limb.distance[*n].is_finite() && is_own(*n)).collect();

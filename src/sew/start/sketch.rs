@@ -4,7 +4,7 @@ use super::axes::Axes;
 use super::deal_error::{DealError, edges};
 use super::ends::Ends;
 use super::words::{Settling, settling};
-use super::{Dealt, Opening, hand_over};
+use super::{Dealt, GluedOpening, hand_over};
 use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
@@ -56,7 +56,7 @@ pub fn sketch(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Sketch {
 }
 
 fn openings(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt) -> Vec<SketchedOpening> {
-    let one = |(opening, ends): (&Opening, &Ends)| SketchedOpening {
+    let one = |(opening, ends): (&GluedOpening, &Ends)| SketchedOpening {
         edges: edges(garment, mesh, &dealt.glued, opening),
         sides: opening.sides.clone(),
         length: opening.length,

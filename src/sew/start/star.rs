@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 use super::axes::Axes;
 use super::balloon::Length;
 use super::circles::{Circle, Mouth, circles, room};
-use super::harmonic::{Film, Ring};
+use super::harmonic::{Film, OpeningRing};
 use super::reach;
 use super::unfold::{Facet, unfold};
 use super::way_out::{WayOut, axis_of, ways_out};
@@ -78,7 +78,7 @@ impl GluedPart<'_> {
     /// The part as a star round a point on the `axes`. `None` where none was found.
     pub(super) fn star(&self, axes: &Axes) -> Option<Star> {
         let pulls = self.pulls();
-        let rims: Vec<Ring> = self.mouths.iter().map(|mouth| mouth.ring.clone()).collect();
+        let rims: Vec<OpeningRing> = self.mouths.iter().map(|mouth| mouth.ring.clone()).collect();
         let film = Film::new(self.count(), &pulls, &rims)?;
         let middles = Film::new(self.count(), &pulls, &self.middles())?;
         self.sights(&film, axes)?.into_iter().take(TRIES).find_map(|mut sight| {
@@ -107,9 +107,9 @@ impl GluedPart<'_> {
     }
 
     /// The middle of every mouth as a ring of one node.
-    fn middles(&self) -> Vec<Ring> {
+    fn middles(&self) -> Vec<OpeningRing> {
         let nodes = self.caps().skip(self.holes.len()).map(|(middle, _)| middle);
-        nodes.zip(&self.mouths).map(|(n, mouth)| Ring { rim: vec![n], ..mouth.ring.clone() }).collect()
+        nodes.zip(&self.mouths).map(|(n, mouth)| OpeningRing { rim: vec![n], ..mouth.ring.clone() }).collect()
     }
 
     /// The edges as the lengths of springs that pull along tubes and little round them, and those that close holes.
@@ -236,7 +236,7 @@ impl GluedPart<'_> {
     }
 
     /// The nodes in their directions, as far off as the openings are.
-    fn at_reach(&self, directions: &[Vec3], circles: &[Circle], rims: &[Ring]) -> Option<Vec<Vec3>> {
+    fn at_reach(&self, directions: &[Vec3], circles: &[Circle], rims: &[OpeningRing]) -> Option<Vec<Vec3>> {
         let mut reach = vec![0.0; self.far.len()];
         for (mouth, circle) in self.mouths.iter().zip(circles) {
             mouth.ring.rim.iter().for_each(|n| reach[*n as usize] = circle.far);

@@ -2,7 +2,7 @@
 
 use super::balloon::Length;
 use super::glue::Glued;
-use crate::geometry::{Edge, Topology, Vec2, sorted_pair};
+use crate::geometry::{MeshEdge, Topology, Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// The edges of the glued surface, as long as in the flat pieces: along a seam the mean of both sides.
@@ -26,7 +26,7 @@ pub(super) fn edges(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
 /// Nodes opposite to one another across an edge within a piece, as far apart as in the flat piece.
 pub(super) fn bending(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
     let whole: Vec<[u32; 3]> = glued.source.iter().map(|t| mesh.triangles[*t as usize]).collect();
-    let across = |edge: &Edge| {
+    let across = |edge: &MeshEdge| {
         let [Some(a), Some(b)] = edge.triangles else { return None };
         let third = |t: u32| (0..3).find(|k| !edge.ends.contains(&whole[t as usize][*k]));
         let (i, j) = (third(a)?, third(b)?);

@@ -163,7 +163,7 @@ fn guess(way: &mut [Vec3], memory: &Memory<3>, film: &Film) {
 #[cfg(test)]
 mod tests {
     use super::super::balloon::Length;
-    use super::super::harmonic::Ring;
+    use super::super::harmonic::OpeningRing;
     use super::*;
 
     /// An octahedron, each of whose faces is to cover an eighth of the sphere.
@@ -183,9 +183,9 @@ mod tests {
         (directions, facets, edges)
     }
 
-    fn held(node: u32) -> Ring {
+    fn held(node: u32) -> OpeningRing {
         let (angles, frame) = (vec![0.0], [Vec3::x(), Vec3::y()]);
-        Ring { rim: vec![node], angles, frame, center: Vec3::zeros(), radius: 0.0, along: None, saddle: 0.0 }
+        OpeningRing { rim: vec![node], angles, frame, center: Vec3::zeros(), radius: 0.0, along: None, saddle: 0.0 }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{ActError, EditError, sense, yaml};
 use crate::io::garment::Edit;
-use crate::pattern::{Cut, GarmentFile, PieceFile, glob, whole_pieces};
+use crate::pattern::{CutKind, GarmentFile, PieceFile, glob, whole_pieces};
 use crate::studio::view::bare;
 
 /// The piece with an edge called `piece.edge`, perhaps with a side.
@@ -21,7 +21,7 @@ pub(super) fn drawn(said: &GarmentFile, edge: &str) -> Result<PieceFile, ActErro
 /// An edge on the fold of the cloth, which nothing is sewn to.
 pub(super) fn restricted(piece: PieceFile, edge: &str) -> Result<(), ActError> {
     match piece.cut.map(|cut| cut.value) {
-        Some(Cut::Fold(fold)) if bare(edge) == format!("{}.{fold}", piece.name.value) => {
+        Some(CutKind::Fold(fold)) if bare(edge) == format!("{}.{fold}", piece.name.value) => {
             sense(format!("{edge} lies on the fold of the cloth"))
         }
         _ => Ok(()),

@@ -6,7 +6,7 @@
 mod nodes;
 mod splice;
 
-use nodes::{Kind, nodes};
+use nodes::{NodeKind, nodes};
 
 use super::tree;
 use crate::pattern::{Findings, Located, Spot, Value};
@@ -190,12 +190,12 @@ fn collect(value: &Value, path: &mut KeyPath, out: &mut Vec<(KeyPath, String)>) 
 /// Names of the entries of the mapping at a path, in its order.
 pub fn keys(text: &str, path: &[String]) -> Vec<String> {
     let named = |(key, _): &(nodes::Node, nodes::Node)| match &key.kind {
-        Kind::Scalar(name) => Some(name.clone()),
+        NodeKind::Scalar(name) => Some(name.clone()),
         _ => None,
     };
     let root = nodes(text);
     match root.as_ref().and_then(|root| root.at(path)).map(|node| &node.kind) {
-        Some(Kind::Map { entries, .. }) => entries.iter().filter_map(named).collect(),
+        Some(NodeKind::Map { entries, .. }) => entries.iter().filter_map(named).collect(),
         _ => Vec::new(),
     }
 }

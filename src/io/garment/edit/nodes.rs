@@ -6,10 +6,10 @@ use saphyr_parser::{Event, Marker, Parser};
 pub(super) struct Node {
     pub(super) start: usize,
     pub(super) end: usize,
-    pub(super) kind: Kind,
+    pub(super) kind: NodeKind,
 }
 
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     Scalar(String),
     List { items: Vec<Node>, flow: bool },
     Map { entries: Vec<(Node, Node)>, flow: bool },
@@ -19,20 +19,20 @@ pub(super) enum Kind {
 impl Node {
     /// Whether nothing is written: the value of `seams:` alone.
     pub(super) fn is_absent(&self) -> bool {
-        self.start == self.end && matches!(&self.kind, Kind::Scalar(text) if text.is_empty())
+        self.start == self.end && matches!(&self.kind, NodeKind::Scalar(text) if text.is_empty())
     }
 
     /// The entry of a mapping with this key.
     pub(super) fn entry(&self, key: &str) -> Option<&(Node, Node)> {
-        let Kind::Map { entries, .. } = &self.kind else { return None };
-        entries.iter().find(|(name, _)| matches!(&name.kind, Kind::Scalar(text) if text == key))
+        let NodeKind::Map { entries, .. } = &self.kind else { return None };
+        entries.iter().find(|(name, _)| matches!(&name.kind, NodeKind::Scalar(text) if text == key))
     }
 
     /// The value at a path of keys and numbers of list items.
     pub(super) fn at(&self, path: &[String]) -> Option<&Node> {
         let Some((first, rest)) = path.split_first() else { return Some(self) };
         let inner = match &self.kind {
-            Kind::List { items, .. } => items.get(first.parse::<usize>().ok()?)?,
+            NodeKind::List { items, .. } => items.get(first.parse::<usize>().ok()?)?,
             _ => &self.entry(first)?.1,
         };
         inner.at(rest)
@@ -40,7 +40,7 @@ impl Node {
 }
 
 /// A collection that is still being read: its start, whether it is in brackets, and its values so far, keys among them.
-struct Open {
+struct OpenNode {
     start: usize,
     flow: bool,
     map: bool,
@@ -59,7 +59,7 @@ pub(super) fn nodes(text: &str) -> Option<Node> {
         let rest = &text[start..];
         start + rest.char_indices().nth(marker.col()).map_or(rest.len(), |(at, _)| at)
     };
-    let mut open: Vec<Open> = Vec::new();
+    let mut open: Vec<OpenNode> = Vec::new();
     for event in Parser::new_from_str(text) {
         let (event, span) = event.ok()?;
         let start = byte(span.start);
@@ -69,7 +69,7 @@ pub(super) fn nodes(text: &str) -> Option<Node> {
                     return None;
                 }
                 let flow = text[start..].starts_with(['{', '[']);
-                open.push(Open { start, flow, map: matches!(event, Event::MappingStart(..)), values: Vec::new() });
+                open.push(OpenNode { start, flow, map: matches!(event, Event::MappingStart(..)), values: Vec::new() });
                 continue;
             }
             Event::Scalar(said, ..) => {
@@ -77,10 +77,10 @@ pub(super) fn nodes(text: &str) -> Option<Node> {
                 Node {
                     start,
                     end: start + text[start..end.max(start)].trim_end().len(),
-                    kind: Kind::Scalar(said.into()),
+                    kind: NodeKind::Scalar(said.into()),
                 }
             }
-            Event::Alias(_) => Node { start, end: byte(span.end), kind: Kind::Alias },
+            Event::Alias(_) => Node { start, end: byte(span.end), kind: NodeKind::Alias },
             Event::SequenceEnd | Event::MappingEnd => closed(open.pop()?, byte(span.end)),
             _ => continue,
         };
@@ -93,20 +93,20 @@ pub(super) fn nodes(text: &str) -> Option<Node> {
 }
 
 /// A collection that has been read. Brackets end where the text says, blocks with their last value.
-fn closed(open: Open, end: usize) -> Node {
-    let Open { start, flow, map, values } = open;
+fn closed(open: OpenNode, end: usize) -> Node {
+    let OpenNode { start, flow, map, values } = open;
     let last = values.iter().map(|value| value.end).max().unwrap_or(start);
     let start = if flow { start } else { values.first().map_or(start, |first| if map { first.start } else { start }) };
     let end = if flow { end } else { last };
     if !map {
-        return Node { start, end, kind: Kind::List { items: values, flow } };
+        return Node { start, end, kind: NodeKind::List { items: values, flow } };
     }
     let mut entries = Vec::with_capacity(values.len() / 2);
     let mut values = values.into_iter();
     while let (Some(key), Some(value)) = (values.next(), values.next()) {
         entries.push((key, value));
     }
-    Node { start, end, kind: Kind::Map { entries, flow } }
+    Node { start, end, kind: NodeKind::Map { entries, flow } }
 }
 
 /// Bytes at which the lines of a text begin, as YAML counts lines.

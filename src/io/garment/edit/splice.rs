@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::nodes::{Kind, Node};
+use super::nodes::{Node, NodeKind};
 
 /// Bytes of a text, and what takes their place.
 pub(super) type Splice = (Range<usize>, String);
@@ -15,8 +15,11 @@ pub(super) fn set(text: &str, root: &Node, path: &[String], value: &str) -> Opti
     let (last, parents) = path.split_last()?;
     if let Some(node) = root.at(path) {
         if !node.is_absent() {
-            return matches!(node.kind, Kind::Scalar(_) | Kind::List { flow: true, .. } | Kind::Map { flow: true, .. })
-                .then(|| (node.start..node.end, value.to_owned()));
+            return matches!(
+                node.kind,
+                NodeKind::Scalar(_) | NodeKind::List { flow: true, .. } | NodeKind::Map { flow: true, .. }
+            )
+            .then(|| (node.start..node.end, value.to_owned()));
         }
         // After the colon of its key.
         let key = &root.at(parents)?.entry(last)?.0;
@@ -27,7 +30,7 @@ pub(super) fn set(text: &str, root: &Node, path: &[String], value: &str) -> Opti
     let Some(parent) = parent else {
         return begun(text, root, parents, &format!("{last}: {value}"), &format!("{{{last}: {value}}}"));
     };
-    let Kind::Map { entries, flow } = &parent.kind else { return None };
+    let NodeKind::Map { entries, flow } = &parent.kind else { return None };
     let entry = format!("{}: {value}", super::scalar(last)?);
     if *flow {
         return Some(in_brackets(parent, entries.last().map(|(key, value)| key.end.max(value.end)), &entry));
@@ -41,7 +44,7 @@ pub(super) fn push(text: &str, root: &Node, path: &[String], value: &str) -> Opt
     let Some(list) = root.at(path).filter(|list| !list.is_absent()) else {
         return begun(text, root, path, &format!("- {value}"), &format!("[{value}]"));
     };
-    let Kind::List { items, flow } = &list.kind else { return None };
+    let NodeKind::List { items, flow } = &list.kind else { return None };
     let last = items.last().map(|item| item.end);
     if *flow {
         return Some(in_brackets(list, last, value));
@@ -53,7 +56,7 @@ pub(super) fn push(text: &str, root: &Node, path: &[String], value: &str) -> Opt
 /// The collection at a path begun with a first entry: as a block below its key at the top of the file, in brackets
 /// elsewhere.
 fn begun(text: &str, root: &Node, path: &[String], block: &str, flow: &str) -> Option<Splice> {
-    let is_block = matches!(root.kind, Kind::Map { flow: false, .. });
+    let is_block = matches!(root.kind, NodeKind::Map { flow: false, .. });
     let [key] = path else { return set(text, root, path, flow) };
     if !is_block {
         return set(text, root, path, flow);
@@ -61,7 +64,7 @@ fn begun(text: &str, root: &Node, path: &[String], block: &str, flow: &str) -> O
     if let Some((key, _)) = root.entry(key) {
         return Some(line_after(text, key.end, &format!("{INDENT}{block}")));
     }
-    let Kind::Map { entries, .. } = &root.kind else { return None };
+    let NodeKind::Map { entries, .. } = &root.kind else { return None };
     let end = entries.last().map(|(key, value)| key.end.max(value.end))?;
     let ending = newline(text);
     Some(line_after(text, end, &format!("{ending}{key}:{ending}{INDENT}{block}")))
@@ -72,18 +75,18 @@ pub(super) fn remove(text: &str, root: &Node, path: &[String]) -> Option<Splice>
     let (last, parents) = path.split_last()?;
     let parent = root.at(parents)?;
     let (ranges, flow, dashed): (Vec<Range<usize>>, bool, bool) = match &parent.kind {
-        Kind::Map { entries, flow } => {
+        NodeKind::Map { entries, flow } => {
             (entries.iter().map(|(key, value)| key.start..key.end.max(value.end)).collect(), *flow, false)
         }
-        Kind::List { items, flow } => (items.iter().map(|item| item.start..item.end).collect(), *flow, true),
+        NodeKind::List { items, flow } => (items.iter().map(|item| item.start..item.end).collect(), *flow, true),
         _ => return None,
     };
     if ranges.len() == 1 && !parents.is_empty() {
         return remove(text, root, parents);
     }
     let own = match &parent.kind {
-        Kind::Map { entries, .. } => {
-            entries.iter().position(|(key, _)| matches!(&key.kind, Kind::Scalar(said) if said == last))?
+        NodeKind::Map { entries, .. } => {
+            entries.iter().position(|(key, _)| matches!(&key.kind, NodeKind::Scalar(said) if said == last))?
         }
         _ => last.parse().ok()?,
     };
