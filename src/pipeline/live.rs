@@ -1,6 +1,6 @@
 //! A garment on its way as binary glTF, for a page that shows it while it is made.
 
-use super::glimpse::Glimpse;
+use super::glimpse::{Glimpse, Reached};
 use super::job::Job;
 use super::run::Run;
 use crate::dynamics::identity_nodes;
@@ -15,13 +15,16 @@ impl Job {
         surface_glb(&self.body.name, &self.body.mesh, |p| self.body.frame.to_file(p))
     }
 
-    /// A glimpse with the maps that are known then: strains, shear and ease.
+    /// A glimpse with the maps that are known then: strains, shear and ease, and none before it is sewn.
     pub fn glimpse_glb(&self, glimpse: &Glimpse) -> Vec<u8> {
+        let at: Vec<_> = glimpse.at.iter().map(|p| self.body.frame.to_file(*p)).collect();
+        if glimpse.reached == Reached::Begun {
+            return garment_glb(&self.garment, glimpse.mesh, glimpse.class, &at, &[], &self.gives());
+        }
         let strains = thread_strains(glimpse.mesh, glimpse.at);
         let strain = |k: usize| strains.iter().map(|values| values[k]).collect::<Vec<f64>>();
         let ease = distances(glimpse.at, &self.body.mesh).into_iter().map(|far| far * MM).collect();
         let maps = [("_STRAIN_WARP", strain(0)), ("_STRAIN_WEFT", strain(1)), ("_SHEAR", strain(2)), ("_EASE", ease)];
-        let at: Vec<_> = glimpse.at.iter().map(|p| self.body.frame.to_file(*p)).collect();
         garment_glb(&self.garment, glimpse.mesh, glimpse.class, &at, &maps, &self.gives())
     }
 

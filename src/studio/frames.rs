@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flatten;
 use crate::geometry::MM;
-use crate::io::garment::Variant;
-use crate::pipeline::{Glimpse, Job, Overrides, PipelineError, Run, json_text, read_variant};
+use crate::pipeline::{Glimpse, Job, Overrides, PipelineError, Reached, Run, json_text, read_variant};
 
 /// Bytes of a frame. A garment of a million particles has fewer.
 const LARGEST: u32 = 1 << 28;
@@ -45,6 +44,8 @@ pub(super) struct About {
     pub(super) fabric: String,
     /// Spacing of the mesh, mm.
     pub(super) spacing: f64,
+    /// How far it has come, in words.
+    pub(super) reached: String,
     /// Whether it is the one that was asked for, at rest, and not on its way.
     pub(super) done: bool,
 }
@@ -110,30 +111,37 @@ pub fn write_frames(file: &Path, overrides: &Overrides, out: impl Write) -> io::
 }
 
 fn make(file: &Path, overrides: &Overrides, send: &dyn Fn(Frame)) -> Result<(), PipelineError> {
-    let loaded = read_variant(file, Variant::default())?;
+    let loaded = read_variant(file, overrides.variant())?;
     let job = Job::new(file, loaded, overrides)?;
     send(Frame::Body(job.body_glb()));
-    let about = |spacing: f64, done: bool| About {
+    let about = |spacing: f64, reached: &str, done: bool| About {
         garment: job.garment.title.clone(),
         mannequin: job.body.name.clone(),
         fabric: job.fabric_names(),
         spacing: MM * spacing,
+        reached: reached.to_owned(),
         done,
     };
     let watch = |glimpse: &Glimpse| {
-        send(Frame::About(about(glimpse.mesh.spacing, false)));
+        let reached = match glimpse.reached {
+            Reached::Begun => "before it is sewn",
+            Reached::Sewn => "sewn",
+            Reached::Draped => "draped",
+        };
+        send(Frame::About(about(glimpse.mesh.spacing, reached, false)));
         send(Frame::Garment(job.glimpse_glb(glimpse)));
     };
-    let show = |run: &Run, done: bool| {
+    let show = |run: &Run, reached: &str, done: bool| {
         if let Some(surface) = run.surface() {
-            send(Frame::About(about(job.mesh.spacing, done)));
+            send(Frame::About(about(job.mesh.spacing, reached, done)));
             send(Frame::Garment(surface));
         }
     };
     let mut run = Run::new(&job).watched_by(&watch);
-    let made = stages(&mut run, send, &|run| show(run, false));
+    let made = stages(&mut run, send, &|run| show(run, "sewn", false));
     let report = made.is_ok().then(|| run.report());
-    show(&run, report.is_some());
+    let reached = if report.is_some() { "draped" } else { "as far as it came" };
+    show(&run, reached, report.is_some());
     if let Some(report) = report {
         send(Frame::Report(json_text(&report)?));
     }

@@ -8,7 +8,7 @@ use std::thread::{self, JoinHandle};
 
 use super::StudioOptions;
 use super::frames::Frame;
-use super::session::Session;
+use super::session::{Session, Wanted};
 
 /// A garment that is being made.
 pub(super) struct Making {
@@ -23,7 +23,7 @@ impl Making {
     /// A process or a thread that cannot be started.
     pub(super) fn start(
         file: &Path,
-        spacing: f64,
+        wanted: &Wanted,
         options: &StudioOptions,
         session: Arc<Session>,
     ) -> std::io::Result<Self> {
@@ -32,7 +32,8 @@ impl Making {
         // The worker ends when its standard input does.
         command.args(words).arg("--worker=0");
         command.args(options.threads.map(|threads| format!("--threads={threads}")));
-        command.arg("studio").arg("--frames").arg(format!("--spacing={spacing}")).arg("--").arg(file);
+        command.arg("studio").arg("--frames").arg(format!("--spacing={}", wanted.spacing));
+        command.args(wanted.size.iter().map(|size| format!("--size={size}"))).arg("--").arg(file);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         // Ctrl-C on a terminal is for the studio.
         #[cfg(unix)]
