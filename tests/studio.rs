@@ -398,6 +398,15 @@ fn sizes_and_alterations_are_chosen_and_the_garment_follows() {
     assert_eq!(studio.state()["alterations"], json!(["take in left, 15 mm at 100 %"]));
     let taken_in = made(&studio, &drawn);
     assert!((hem(&drawn) - hem(&taken_in) - 30.0).abs() < 4.0, "{} {}", hem(&drawn), hem(&taken_in));
+    // It has gone on from the one before; sewn from nothing it comes out the same.
+    assert!(large["from"].is_null() && taken_in["from"]["anew"] == false, "{}", taken_in["from"]);
+    assert_eq!(studio.act(&json!({ "do": "anew" })).0, 200);
+    let anew = made(&studio, &taken_in);
+    assert!(anew["from"].is_null() && (hem(&anew) - hem(&taken_in)).abs() < 2.0, "{}", anew["from"]);
+    // Put on in another way it must not hang where it did.
+    assert_eq!(studio.act(&json!({ "do": "place", "piece": "back", "words": ["waist", "back"] })).0, 200);
+    assert!(made(&studio, &anew)["from"].is_null());
+    assert_eq!(studio.act(&json!({ "do": "undo" })).0, 200);
     let (status, why) = studio.act(&json!({ "do": "alter", "alteration": "{lengthen: front, at: 150, by: 20}" }));
     assert!(status == 400 && why.contains("left"), "a seam no longer matches: {why}");
     assert_eq!(studio.act(&json!({ "do": "undo" })).0, 200);

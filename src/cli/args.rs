@@ -172,6 +172,9 @@ pub(super) struct StudioArgs {
     /// Make the garment once and write it for a studio on standard output
     #[arg(long, hide = true)]
     pub(super) frames: bool,
+    /// A file of the studio with a garment to go on from
+    #[arg(long, hide = true, value_name = "FILE")]
+    pub(super) earlier: Option<PathBuf>,
 }
 
 /// One of the spacings that the page offers.

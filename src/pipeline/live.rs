@@ -35,12 +35,25 @@ impl Job {
 }
 
 impl Run<'_> {
-    /// The garment as it is now with its maps, or its pieces as they were placed. `None` before that.
+    /// Whether it hangs where an earlier garment does, and has not been draped since.
+    pub fn is_carried(&self) -> bool {
+        self.hanging.is_some()
+    }
+
+    /// The draped garment as [`GARMENT_OBJ`](super::GARMENT_OBJ) has it. `None` before it is draped.
+    pub fn garment_obj(&self) -> Option<Vec<u8>> {
+        self.draped.as_ref().map(|draped| self.obj(draped, &self.class()))
+    }
+
+    /// The garment as it is now with its maps, or where an earlier one hangs, or its pieces as they were placed. `None`
+    /// before that.
     pub fn surface(&self) -> Option<Vec<u8>> {
-        let at = self.last().or(self.placed.as_deref())?;
+        let hanging = self.hanging.as_ref().map(|nodes| self.stitching.spread(nodes));
+        let joined = self.last().or(hanging.as_deref());
+        let at = joined.or(self.placed.as_deref())?;
         let Job { garment, mesh, .. } = self.job;
         // Pieces that are only placed are not joined yet.
-        let alone = self.last().is_none().then(|| identity_nodes(mesh));
+        let alone = joined.is_none().then(|| identity_nodes(mesh));
         let class = alone.map_or_else(|| self.class(), Into::into);
         Some(garment_glb(garment, mesh, &class, &self.in_file(at), &self.maps(at), &self.job.gives()))
     }

@@ -50,7 +50,7 @@ pub struct Run<'a> {
     /// Whether that could not be carried over.
     anew: bool,
     /// Positions of the classes where the earlier garment hangs. Draping starts with them, and nothing is sewn.
-    hanging: Option<Vec<Vec3>>,
+    pub(super) hanging: Option<Vec<Vec3>>,
     /// The function that is told of coarser levels, if there is one.
     watch: Option<Watch<'a>>,
 }

@@ -60,6 +60,8 @@ pub(super) enum Act {
     Spacing { mm: f64 },
     /// A size of the garment to make. None is the garment as drawn and altered. It is no part of the file.
     Size { name: Option<String> },
+    /// Sews the garment from nothing, and not from where the one before hung.
+    Anew,
     /// Undoes the last act.
     Undo,
     /// Does it again.
@@ -175,7 +177,7 @@ impl Act {
             Self::Unalter { number } => altering::dropped(said, *number),
             Self::Length { path, value } => length(path, value),
             Self::Ease { seam, value } => easing(said, seam, value),
-            Self::Spacing { .. } | Self::Size { .. } | Self::Undo | Self::Redo => {
+            Self::Spacing { .. } | Self::Size { .. } | Self::Anew | Self::Undo | Self::Redo => {
                 sense("this is no change of the file")
             }
         }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::earlier::{begun, is_sound};
 use crate::flatten;
 use crate::geometry::MM;
 use crate::pipeline::{Glimpse, Job, Overrides, PipelineError, Reached, Run, json_text, read_variant};
@@ -25,6 +26,8 @@ pub(super) enum Frame {
     About(About),
     /// The garment, as binary glTF.
     Garment(Vec<u8>),
+    /// The garment as `garment.obj`, for the next one to go on from. The report follows.
+    Surface(Vec<u8>),
     /// The text of `report.json`.
     Report(String),
     /// The stage under way, and the share of it that is done.
@@ -53,11 +56,12 @@ pub(super) struct About {
 impl Frame {
     /// # Errors
     /// A reader that is gone.
-    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (kind, bytes) = match self {
             Self::Body(bytes) => (b'b', bytes.clone()),
             Self::About(about) => (b'a', serde_json::to_vec(about)?),
             Self::Garment(bytes) => (b'g', bytes.clone()),
+            Self::Surface(bytes) => (b's', bytes.clone()),
             Self::Report(text) => (b'r', text.clone().into_bytes()),
             Self::Progress(stage, share) => (b'p', serde_json::to_vec(&(stage, share))?),
             Self::Failed(text) => (b'f', text.clone().into_bytes()),
@@ -84,6 +88,7 @@ impl Frame {
             b'b' => Self::Body(bytes),
             b'a' => Self::About(serde_json::from_slice(&bytes).ok()?),
             b'g' => Self::Garment(bytes),
+            b's' => Self::Surface(bytes),
             b'r' => Self::Report(String::from_utf8(bytes).ok()?),
             b'p' => serde_json::from_slice(&bytes).ok().map(|(stage, share)| Self::Progress(stage, share))?,
             b'f' => Self::Failed(String::from_utf8(bytes).ok()?),
@@ -92,11 +97,12 @@ impl Frame {
     }
 }
 
-/// Makes a garment and writes it in frames, coarser levels first. A garment that cannot be made is a frame, too.
+/// Makes a garment and writes it in frames, coarser levels first. It goes on from the one in the file `earlier`, which
+/// the studio has written, if it can. A garment that cannot be made is a frame, too.
 ///
 /// # Errors
 /// A reader that is gone.
-pub fn write_frames(file: &Path, overrides: &Overrides, out: impl Write) -> io::Result<()> {
+pub fn write_frames(file: &Path, overrides: &Overrides, earlier: Option<&Path>, out: impl Write) -> io::Result<()> {
     let out = RefCell::new(out);
     let gone = RefCell::new(None);
     let send = |frame: Frame| {
@@ -104,13 +110,13 @@ pub fn write_frames(file: &Path, overrides: &Overrides, out: impl Write) -> io::
             gone.borrow_mut().get_or_insert(error);
         }
     };
-    if let Err(error) = make(file, overrides, &send) {
+    if let Err(error) = make(file, overrides, earlier, &send) {
         send(Frame::Failed(error.to_string()));
     }
     gone.into_inner().map_or(Ok(()), Err)
 }
 
-fn make(file: &Path, overrides: &Overrides, send: &dyn Fn(Frame)) -> Result<(), PipelineError> {
+fn make(file: &Path, overrides: &Overrides, earlier: Option<&Path>, send: &dyn Fn(Frame)) -> Result<(), PipelineError> {
     let loaded = read_variant(file, overrides.variant())?;
     let job = Job::new(file, loaded, overrides)?;
     send(Frame::Body(job.body_glb()));
@@ -137,12 +143,16 @@ fn make(file: &Path, overrides: &Overrides, send: &dyn Fn(Frame)) -> Result<(), 
             send(Frame::Garment(surface));
         }
     };
-    let mut run = Run::new(&job).watched_by(&watch);
-    let made = stages(&mut run, send, &|run| show(run, "sewn", false));
+    let mut run = begun(&job, earlier).watched_by(&watch);
+    let hung = |run: &Run| if run.is_carried() { "where the one before hung" } else { "sewn" };
+    let made = stages(&mut run, send, &|run| show(run, hung(run), false));
     let report = made.is_ok().then(|| run.report());
     let reached = if report.is_some() { "draped" } else { "as far as it came" };
     show(&run, reached, report.is_some());
     if let Some(report) = report {
+        if is_sound(&report) {
+            run.garment_obj().into_iter().for_each(|surface| send(Frame::Surface(surface)));
+        }
         send(Frame::Report(json_text(&report)?));
     }
     made
@@ -174,6 +184,7 @@ mod tests {
             Frame::Body(vec![1, 2, 3]),
             Frame::About(about),
             Frame::Garment(Vec::new()),
+            Frame::Surface(vec![4]),
             Frame::Report("{}".into()),
             Frame::Progress("sew".into(), 0.25),
             Frame::Failed("no body".into()),

@@ -14,6 +14,7 @@
 
 mod acts;
 mod door;
+mod earlier;
 mod frames;
 mod history;
 mod http;

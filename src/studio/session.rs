@@ -8,11 +8,12 @@ use serde::Serialize;
 
 use super::StudioError;
 use super::acts::{Act, ActError, Done};
+use super::earlier::Kept;
 use super::frames::{About, Frame};
 use super::history::History;
 use super::view::{View, view};
 use crate::input::bytes;
-use crate::io::files::write_all;
+use crate::io::files::{Private, write_all};
 use crate::io::garment::{LARGEST_FILE, read_file_only};
 use crate::pattern::GarmentFile;
 
@@ -56,6 +57,9 @@ struct Inner {
     wanted: Wanted,
     /// Frames of a garment that came before that was known.
     early: Vec<Frame>,
+    /// The last garment that came out well, and the surface of the next one, whose report is still to come.
+    kept: Option<Kept>,
+    surface: Option<Vec<u8>>,
     history: History,
     state: Arc<String>,
     body: Arc<Vec<u8>>,
@@ -169,6 +173,14 @@ impl Session {
         wanted.of(read_file_only("", &text).ok().as_ref())
     }
 
+    /// The garment that the next one may go on from, in a file. `None` where there is none, or that one is put on in
+    /// another way.
+    pub(super) fn earlier(&self) -> Option<Private> {
+        let inner = self.lock();
+        let said = read_file_only("", &inner.text).ok()?;
+        inner.kept.as_ref().filter(|kept| kept.leads_to(&said))?.in_file().ok()
+    }
+
     /// The text of the file as it was read last.
     pub(super) fn text(&self) -> String {
         self.lock().text.clone()
@@ -238,6 +250,8 @@ impl Session {
         }
         if let Act::Spacing { mm } = act {
             inner.wanted.spacing = *SPACINGS.iter().find(|spacing| *spacing == mm).ok_or(ActError::Spacing)?;
+        } else if *act == Act::Anew {
+            inner.kept = None;
         } else if let Act::Size { name } = act {
             let said = read_file_only("", &inner.text).map_err(|e| ActError::File(e.to_string()))?;
             name.iter().try_for_each(|size| known(&said, size))?;
@@ -292,7 +306,12 @@ impl Inner {
                 self.garment = Arc::new(bytes);
                 self.news.garment += 1;
             }
+            Frame::Surface(bytes) => self.surface = Some(bytes),
             Frame::Report(text) => {
+                let said = read_file_only("", &self.text).ok();
+                let fresh = self.surface.take().zip(said).map(|(surface, said)| Kept::new(surface, &text, &said));
+                // One that did not come out well is none to go on from; the one before it may be.
+                self.kept = fresh.or_else(|| self.kept.take());
                 self.report = Arc::new(text);
                 self.news.report = self.news.garment;
             }

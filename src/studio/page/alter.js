@@ -2,9 +2,8 @@
 
 /** Kinds of alterations that the form knows, in words. */
 const KINDS = [
-  ["take_in", "take in a seam or an edge"], ["let_out", "let out a seam or an edge"],
-  ["lengthen", "lengthen pieces"], ["shorten", "shorten pieces"],
-  ["fullness", "give an edge fullness"], ["other", "in the words of the file"],
+  ["take_in", "take in"], ["let_out", "let out"], ["lengthen", "lengthen"], ["shorten", "shorten"],
+  ["fullness", "give fullness"], ["other", "in the file's words"],
 ];
 /** Where along its edge a seam is altered: words, and positions. What lies between goes over smoothly. */
 const WHERE = [["all along", ["0 %", "100 %"]], ["in the middle", ["50 %"]], ["at the start", ["0 %"]],
@@ -25,7 +24,7 @@ function alterable(state) {
 }
 
 /** The form with its empty fields filled in from what is chosen on the board. */
-function filled(form, state, selection) {
+function formFor(form, state, selection) {
   const [first, second] = [selection.sides[0], selection.sides[1]].map((chain) => (chain || [])[0]);
   const all = state.pieces.flatMap((piece) => piece.edges.map((edge) => ({ name: `${piece.name}.${edge.name}`, edge })));
   const chosen = all.find(({ name }) => name === first);
@@ -68,7 +67,7 @@ function alterFields(form, state, change) {
   if (form.kind === "other") {
     return [kind, type("alter text", "Alteration", "text", "{pivot: front.bust, to: front.shoulder@50 %}")];
   }
-  const by = type("alter by", "By (mm, or with a unit)", "by");
+  const by = type("alter by", "By", "by");
   if (asksHeight(form)) {
     const box = (name) => {
       const field = element("input", { type: "checkbox", id: `alter piece ${name}` });
@@ -79,8 +78,8 @@ function alterFields(form, state, change) {
     };
     return [kind, element("div", { class: "row", role: "group", "aria-label": "Pieces" },
       ...state.pieces.map((piece) => box(piece.name))),
-    type("alter at", "At the height y of the drawing", "at"), by,
-    element("p", { class: "soft" }, "Click a piece where it is to be slashed. Pieces that are sewn beside it are ticked, too.")];
+    type("alter at", "At height y", "at"), by,
+    element("p", { class: "soft" }, "Click each piece at the height of the slash. A piece beside it that shares a seam is slashed, too.")];
   }
   if (form.kind === "fullness") {
     const edges = state.pieces.flatMap((piece) => piece.edges.map((edge) => `${piece.name}.${edge.name}`));
@@ -93,7 +92,7 @@ function alterFields(form, state, change) {
 
 /** Alterations of the file, each with its lengths, and the form. */
 function alterGroup(state, selection, act, change) {
-  const form = filled(selection.alter, state, selection);
+  const form = formFor(selection.alter, state, selection);
   const lengths = (k) => state.lengths.filter(({ path }) => path[0] === "alter" && path[1] === String(k));
   const row = (words, k) => element("li", {}, element("div", {}, `${k + 1}. ${words}`),
     element("div", { class: "row" }, ...lengths(k).flatMap(({ path, label, value }) => [
@@ -103,6 +102,6 @@ function alterGroup(state, selection, act, change) {
       click: () => act({ do: "unalter", number: k }) }, "Take back")));
   const list = state.alterations.length ? [element("ul", {}, ...state.alterations.map(row))] : [];
   const go = element("button", { type: "button", id: "alter",
-    click: () => act({ do: "alter", alteration: alterationOf(filled(selection.alter, state, selection)) }) }, "Alter");
+    click: () => act({ do: "alter", alteration: alterationOf(formFor(selection.alter, state, selection)) }) }, "Alter");
   return group("Alterations", ...list, ...alterFields(form, state, change), go);
 }

@@ -33,7 +33,7 @@ function heightOf(event) {
 
 /** The line across a piece where the form for an alteration slashes it. */
 function slash(piece, box, state, selection) {
-  const form = filled(selection.alter, state, selection);
+  const form = formFor(selection.alter, state, selection);
   const y = parseFloat(form.at);
   if (!asksHeight(form) || !form.pieces.includes(piece.name) || !(y >= box.low[1] && y <= box.high[1])) return [];
   return [drawn("path", { class: "slash", d: `M ${box.low[0] - 15} ${y} L ${box.high[0] + 15} ${y}` })];

@@ -17,11 +17,24 @@ function colored(shape) {
   return shape;
 }
 
+/** The colour in which a fabric is shown. */
+function colorOf(name) {
+  const shown = cloth && cloth.pieces.find((piece) => piece.extras.fabric === name);
+  return chosenColors.get(name) || (shown ? hexOf(shown.color) : "#bccbe0");
+}
+
+/** Lets the fields have the colours of the garment that is shown. */
+function showColors(names) {
+  for (const name of names) {
+    const field = find(`color ${name}`);
+    if (field) field.value = colorOf(name);
+  }
+}
+
 /** A field for the colour of a fabric. */
 function colorField(name) {
-  const shown = cloth && cloth.pieces.find((piece) => piece.extras.fabric === name);
   const field = element("input", { type: "color", id: `color ${name}`, "aria-label": `Colour of ${name} in this page`,
-    value: chosenColors.get(name) || (shown ? hexOf(shown.color) : "#bccbe0") });
+    value: colorOf(name) });
   field.addEventListener("input", () => {
     chosenColors.set(name, field.value);
     if (cloth) {

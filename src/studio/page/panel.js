@@ -24,12 +24,14 @@ function garmentGroup(state, act) {
   const size = state.sizes.length ? [choice("size", "Size", [asDrawn, ...state.sizes], state.size || asDrawn,
     (name) => act({ do: "size", name: name === asDrawn ? null : name }))] : [];
   const cloths = state.fabrics.map((fabric) => element("div", { class: "cloth-row" }, fabric.cloth === null
-    ? element("span", {}, `Fabric: ${fabric.name} (values of its own)`)
-    : choice(`fabric ${fabric.name}`, `Fabric: ${fabric.name}`, state.cloths, fabric.cloth,
+    ? element("span", {}, `Fabric ${fabric.name}: values of its own`)
+    : choice(`fabric ${fabric.name}`, `Fabric ${fabric.name}`, state.cloths, fabric.cloth,
       (cloth) => act({ do: "fabric", name: fabric.name, cloth })), colorField(fabric.name)));
   const spacing = choice("spacing", "Mesh, mm (finer is slower)", state.spacings.map(String), String(state.spacing),
     (mm) => act({ do: "spacing", mm: Number(mm) }));
-  return group("Garment", ...size, ...cloths, spacing);
+  const anew = element("button", { type: "button", id: "anew", click: () => act({ do: "anew" }),
+    title: "From nothing, and not from where the garment before hung" }, "Sew anew");
+  return group("Garment", ...size, ...cloths, spacing, anew);
 }
 
 /** Seams that may be meant. */

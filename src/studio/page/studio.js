@@ -30,7 +30,7 @@ function choosePiece(name, height) {
   const isAsked = asksHeight(selection.alter) && typeof height === "number";
   selection.piece = again && !isAsked ? null : name;
   if (isAsked) {
-    const ticked = filled(selection.alter, state, selection).pieces;
+    const ticked = formFor(selection.alter, state, selection).pieces;
     selection.alter.pieces = [...new Set([...ticked, name])];
     selection.alter.at = height.toFixed(0);
   }
@@ -109,8 +109,10 @@ async function takeGarment(news) {
   find("shown").hidden = false;
   find("nothing").hidden = true;
   load({ report: figures, cloth: colored(joined(readGlb(new Uint8Array(garment)))), body: skin.shape });
+  showColors(state ? state.fabrics.map((fabric) => fabric.name) : []);
   find("about").textContent = `${about.garment} on ${about.mannequin}, ${about.fabric}, ` +
-    `${about.spacing.toFixed(0)} mm mesh${about.done ? "" : `, on its way: ${about.reached}`}`;
+    `${about.spacing.toFixed(0)} mm mesh${about.done ? "" : `, on its way: ${about.reached}`}` +
+    (figures && figures.from && !figures.from.anew ? ", gone on from the garment before" : "");
   find("tables").replaceChildren();
   if (figures) fillTables(find("tables"), figures, show);
   document.documentElement.dataset.garment = String(news.garment);
