@@ -79,7 +79,7 @@ function alterFields(form, state, change) {
     return [kind, element("div", { class: "row", role: "group", "aria-label": "Pieces" },
       ...state.pieces.map((piece) => box(piece.name))),
     type("alter at", "At height y", "at"), by,
-    element("p", { class: "soft" }, "Click each piece at the height of the slash. A piece beside it that shares a seam is slashed, too.")];
+    element("p", { class: "soft" }, "Click each piece at the height of the slash. Pieces that are sewn to its sides need one, too.")];
   }
   if (form.kind === "fullness") {
     const edges = state.pieces.flatMap((piece) => piece.edges.map((edge) => `${piece.name}.${edge.name}`));

@@ -11,6 +11,7 @@ const say = (text) => find("said").textContent = text;
 
 /** Asks for an act, and forgets what was chosen for it. Gives the words in which it was refused, or none. */
 async function act(what) {
+  say("");
   const refused = await ask(state.version, what);
   say(refused);
   if (!refused && ["sew", "free", "unfree", "name"].includes(what.do)) selection.sides = [];
@@ -124,7 +125,8 @@ function tellProgress(news) {
   const share = `${(100 * news.share).toFixed(0)} %`;
   const words = news.failed ? `It cannot be made: ${news.failed}`
     : news.making ? `${stages[news.stage] || "Beginning"} … ${news.stage ? share : ""}`
-      : state && !state.sound ? "The garment is made as soon as the file has no more problems." : "";
+      : state && !state.sound && !find("shown").hidden
+        ? "This is the garment of the file before. The next one is made as soon as the file has no problems." : "";
   if (find("progress").textContent !== words) find("progress").textContent = words;
 }
 
