@@ -350,3 +350,65 @@ fn acts_change_the_file_and_are_undone_to_the_byte() {
     assert_eq!(studio.raw(studio.message(&act).as_bytes()).0, 409);
     assert_eq!(studio.text(), SKIRT);
 }
+
+/// A skirt with two sizes.
+const SIZES: &str = "sizes:   # in the shop
+  S: []
+  L: [{let_out: left, at: {0: 10, 100 %: 10}}, {let_out: right, at: {0: 10, 100 %: 10}}]
+";
+
+/// Waits until a garment is done, and gives its report.
+fn made(studio: &Served, since: &Value) -> Value {
+    let begin = Instant::now();
+    loop {
+        let report = studio.get(&format!("{}report.json", studio.inside)).1;
+        if let Some(report) = serde_json::from_str(&report).ok().filter(|report: &Value| report != since) {
+            return report;
+        }
+        assert!(begin.elapsed() < PATIENCE, "no garment");
+        thread::sleep(Duration::from_millis(100));
+    }
+}
+
+/// Length of the hem of a report's garment, mm.
+fn hem(report: &Value) -> f64 {
+    let worn = report["worn"].as_array().expect("openings");
+    let hem = worn.iter().find(|opening| opening["opening"].as_str().is_some_and(|name| name.contains("hem")));
+    hem.and_then(|hem| hem["length"].as_f64()).expect("a hem")
+}
+
+#[test]
+fn sizes_and_alterations_are_chosen_and_the_garment_follows() {
+    let (_room, file) = room();
+    let text = format!("{SKIRT}{SIZES}");
+    fs::write(&file, &text).expect("written");
+    let studio = Served::start(&file, &["--spacing", "25", "--size", "L"]);
+    assert_eq!((&studio.state()["size"], &studio.state()["sizes"]), (&json!("L"), &json!(["S", "L"])));
+    let large = made(&studio, &Value::Null);
+    assert_eq!(studio.act(&json!({ "do": "size", "name": "XL" })).0, 400);
+    assert_eq!(studio.act(&json!({ "do": "size", "name": null })).0, 200);
+    let drawn = made(&studio, &large);
+    // Two seams, two edges each, 10 mm each.
+    assert!((hem(&large) - hem(&drawn) - 40.0).abs() < 4.0, "{} {}", hem(&large), hem(&drawn));
+    assert_eq!(studio.text(), text, "a size belongs to the page");
+    let take_in = json!({ "take_in": "left", "at": { "100 %": "15 mm" } }).to_string();
+    assert_eq!(studio.act(&json!({ "do": "alter", "alteration": take_in })).0, 200);
+    let altered = studio.text();
+    assert!(altered.contains("# in the shop") && altered.contains("alter:\n  - {take_in: left, at: {100 %: 15 mm}}"));
+    assert_eq!(studio.state()["alterations"], json!(["take in left, 15 mm at 100 %"]));
+    let taken_in = made(&studio, &drawn);
+    assert!((hem(&drawn) - hem(&taken_in) - 30.0).abs() < 4.0, "{} {}", hem(&drawn), hem(&taken_in));
+    // It has gone on from the one before; sewn from nothing it comes out the same.
+    assert!(large["from"].is_null() && taken_in["from"]["anew"] == false, "{}", taken_in["from"]);
+    assert_eq!(studio.act(&json!({ "do": "anew" })).0, 200);
+    let anew = made(&studio, &taken_in);
+    assert!(anew["from"].is_null() && (hem(&anew) - hem(&taken_in)).abs() < 2.0, "{}", anew["from"]);
+    // Put on in another way it must not hang where it did.
+    assert_eq!(studio.act(&json!({ "do": "place", "piece": "back", "words": ["waist", "back"] })).0, 200);
+    assert!(made(&studio, &anew)["from"].is_null());
+    assert_eq!(studio.act(&json!({ "do": "undo" })).0, 200);
+    let (status, why) = studio.act(&json!({ "do": "alter", "alteration": "{lengthen: front, at: 150, by: 20}" }));
+    assert!(status == 400 && why.contains("left"), "a seam no longer matches: {why}");
+    assert_eq!(studio.act(&json!({ "do": "undo" })).0, 200);
+    assert_eq!(studio.text(), text);
+}

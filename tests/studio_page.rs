@@ -248,3 +248,66 @@ fn a_save_shows_its_problems_and_names_are_text() {
     assert_ne!(browser.value("document.title"), "owned");
     assert_eq!(browser.errors, Vec::<String>::new());
 }
+
+/// Chooses a value of a list, as a click on it does.
+fn choose(browser: &mut Browser, id: &str, value: &str) {
+    let list = by_id(id);
+    until(browser, &format!("!!{list}"));
+    browser.value(&format!(
+        "(() => {{ const list = {list}; list.value = {}; list.dispatchEvent(new Event('change')); }})()",
+        serde_json::json!(value)
+    ));
+}
+
+#[test]
+fn a_maker_alters_measures_and_chooses_a_size_without_an_editor() {
+    let room = tempfile::tempdir().expect("a temporary folder");
+    let file = room.path().join("skirt.yaml");
+    let text = format!("{}sizes: {{S: []}}   # one more\n", include_str!("data/skirt.yaml"));
+    fs::write(&file, &text).expect("written");
+    let studio = Served::start(&file, &["--spacing", "25"]);
+    let Some(mut browser) = opened(&studio) else { return };
+    let browser = &mut browser;
+    // A seam is taken in: the one of the edge that is clicked.
+    click(browser, &by_id("edge front.left"), false);
+    choose(browser, "alter kind", "let_out");
+    assert_eq!(browser.value(&format!("{}.value", by_id("alter seam"))), "right");
+    choose(browser, "alter where", "3");
+    act(browser, "alter");
+    assert!(studio.text().contains("alter:\n  - {let_out: right, at: {100 %: 10 mm}}"), "{}", studio.text());
+    // Both pieces are made longer, at the height of the click.
+    choose(browser, "alter kind", "lengthen");
+    click(browser, &by_id("piece front"), false);
+    click(browser, &by_id("alter piece back"), false);
+    until(browser, "document.querySelectorAll('#board .slash').length === 2");
+    act(browser, "alter");
+    let lengthened = read(&file).alter.pop().expect("an alteration").value;
+    assert!(format!("{lengthened:?}").contains("back"), "{lengthened:?}");
+    // One alone does not fit the other any more: said, and nothing is written.
+    let before = studio.text();
+    click(browser, &by_id("alter"), false);
+    until(browser, "document.getElementById('said').textContent.includes('cannot be done')");
+    assert_eq!(studio.text(), before);
+    act(browser, "unalter 1");
+    assert_eq!(read(&file).alter.len(), 1);
+    choose(browser, "measure-name", "waist");
+    click(browser, &by_id("measure-value"), false);
+    browser.type_text("76 cm");
+    acting(browser, |browser| browser.key("Tab"));
+    assert!(studio.text().contains("body: {like: woman_92, waist: 76 cm}"), "{}", studio.text());
+    acting(browser, |browser| choose(browser, "size", "S"));
+    assert!(studio.text().contains("# one more"));
+    // A colour of the page alone.
+    until(browser, "Number(document.documentElement.dataset.garment) > 0");
+    let paint = "(() => { const field = document.getElementById('color shell'); field.value = '#c02020'; \
+                 field.dispatchEvent(new Event('input')); \
+                 return Array.from(toile.colorsOf(toile.maps[0], toile.cloth).slice(0, 3)); })()";
+    assert_eq!(browser.value(paint), serde_json::json!([192, 32, 32]));
+    for _ in 0..4 {
+        act(browser, "undo");
+    }
+    assert_eq!(studio.text(), text);
+    // The browser itself tells of the act that was refused, and of nothing else.
+    let [refused] = &browser.errors[..] else { panic!("{:?}", browser.errors) };
+    assert!(refused.contains("400") && refused.contains("/act"), "{refused}");
+}

@@ -220,9 +220,15 @@ pub(super) struct StudioArgs {
     /// Spacing of the mesh at the beginning, mm: 8, 10, 12, 15, 20 or 25
     #[arg(long, value_name = "MM", default_value_t = 10.0, value_parser = studio_spacing)]
     pub(super) spacing: f64,
+    /// Size of the garment at the beginning, as its file names it
+    #[arg(long, value_name = "SIZE")]
+    pub(super) size: Option<String>,
     /// Make the garment once and write it for a studio on standard output
     #[arg(long, hide = true)]
     pub(super) frames: bool,
+    /// A file of the studio with a garment to go on from
+    #[arg(long, hide = true, value_name = "FILE")]
+    pub(super) earlier: Option<PathBuf>,
 }
 
 /// One of the spacings that the page offers.

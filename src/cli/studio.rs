@@ -18,13 +18,16 @@ pub(super) fn studio(
     itself: &[OsString],
     console: &Console,
 ) -> Result<Exit, CliError> {
+    let size = args.size.clone();
     if args.frames {
-        let overrides = Overrides { spacing: Some(args.spacing / MM), ..Overrides::default() };
+        let overrides = Overrides { spacing: Some(args.spacing / MM), size, ..Overrides::default() };
         let out = io::BufWriter::new(io::stdout());
-        return write_frames(&args.garment, &overrides, out).map(|()| Exit::Done).map_err(CliError::Print);
+        return write_frames(&args.garment, &overrides, args.earlier.as_deref(), out)
+            .map(|()| Exit::Done)
+            .map_err(CliError::Print);
     }
     let (port, spacing, program) = (args.port, args.spacing, itself.to_vec());
-    let studio = Studio::open(&args.garment, StudioOptions { port, spacing, program, threads })?;
+    let studio = Studio::open(&args.garment, StudioOptions { port, spacing, size, program, threads })?;
     let address = studio.address();
     console.document(&format!("{address}\n"))?;
     // Kept until the end: the browser may read it late.

@@ -119,6 +119,11 @@ pub struct Measures {
     unused: Vec<&'static str>,
 }
 
+/// Names of the measures that change a mannequin, each by the first of its names.
+pub fn measure_names() -> impl Iterator<Item = &'static str> {
+    KNOWN.iter().filter(|(_, _, meaning)| *meaning != Unused).map(|(name, _, _)| *name)
+}
+
 impl Measures {
     /// Adds a measure, mm.
     ///

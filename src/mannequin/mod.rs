@@ -28,7 +28,7 @@ pub use detect::find_parts;
 pub use frame::BodyFrame;
 pub(crate) use junction::{Junction, JunctionSide, LEVEL, LIMB, junctions};
 pub use library::{library, load, load_measured};
-pub use measures::Measures;
+pub use measures::{Measures, measure_names};
 pub use room::{GAP, make_room};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 pub(crate) use spread::LimbSpread;

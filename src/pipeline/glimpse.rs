@@ -6,7 +6,18 @@ use crate::geometry::Vec3;
 use crate::mesh::ClothMesh;
 use crate::picture::{Dressed, PictureLayout, draw};
 
-/// A garment that has been sewn or draped on a coarser mesh.
+/// How far a garment on its way has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reached {
+    /// It is put round the body, nothing is sewn yet. Its cloth has no strains that mean anything.
+    Begun,
+    /// Its seams are closed.
+    Sewn,
+    /// It hangs.
+    Draped,
+}
+
+/// A garment on a coarser mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Glimpse<'a> {
     /// The coarser mesh.
@@ -15,9 +26,12 @@ pub struct Glimpse<'a> {
     pub class: &'a [u32],
     /// Position of every particle, metres.
     pub at: &'a [Vec3],
+    /// How far it has come.
+    pub reached: Reached,
 }
 
-/// Told of every coarser level once it is sewn, and again once it is draped, the coarsest first.
+/// Told of the garment before it is sewn, where its start is clear, then of every coarser level once it is sewn, and
+/// again once it is draped, the coarsest first.
 pub type Watch<'a> = &'a dyn Fn(&Glimpse);
 
 impl Job {

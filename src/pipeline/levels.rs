@@ -1,7 +1,7 @@
 //! Coarse to fine: a garment is sewn and draped on a coarse mesh first, where a step costs little and moves folds far.
 //! The result is the start of the next finer mesh (cascadic multigrid; Bornemann and Deuflhard 1996).
 
-use super::glimpse::{Glimpse, Watch};
+use super::glimpse::{Glimpse, Reached, Watch};
 use super::job::Job;
 use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
@@ -156,7 +156,7 @@ impl Job {
         let closed = self.sew_from_coarse(&mesh, watch, progress).ok()?;
         is_whole(&mesh, &closed.sewn).then(|| {
             let coarse = Box::new(Coarse { mesh, closed });
-            coarse.show(&coarse.closed.sewn.nodes, watch);
+            coarse.show(&coarse.closed.sewn.nodes, Reached::Sewn, watch);
             coarse
         })
     }
@@ -204,7 +204,7 @@ impl Job {
         let mut tell = |share| progress(COARSE_SHARE * share);
         let cut = self.cut_of(&coarse.mesh);
         let draped = drape(&cut, &self.collider, &sewn.stitching, start, &options, &mut tell).ok()?;
-        coarse.show(&draped.nodes, watch);
+        coarse.show(&draped.nodes, Reached::Draped, watch);
         let start = coarse.carry(&draped.nodes, mesh);
         join(&self.cut_of(mesh), &self.collider, &Stitching::new(mesh), &start).ok().flatten()
     }
@@ -216,9 +216,9 @@ impl Job {
 
 impl Coarse {
     /// Shows this level with its classes at `nodes`.
-    fn show(&self, nodes: &[Vec3], watch: Watch) {
+    fn show(&self, nodes: &[Vec3], reached: Reached, watch: Watch) {
         let stitching = &self.closed.sewn.stitching;
-        watch(&Glimpse { mesh: &self.mesh, class: &stitching.class, at: &stitching.spread(nodes) });
+        watch(&Glimpse { mesh: &self.mesh, class: &stitching.class, at: &stitching.spread(nodes), reached });
     }
 
     /// Positions of the particles of `mesh` from those of this level's classes.
@@ -294,21 +294,23 @@ mod tests {
     }
 
     #[test]
-    fn a_coarser_level_is_shown_once_it_is_sewn_and_once_it_is_draped() {
+    fn a_garment_is_shown_as_it_begins_and_a_coarser_level_once_it_is_sewn_and_once_it_is_draped() {
         let job = skirt(0.015);
         let seen = RefCell::new(Vec::new());
         let watch = |glimpse: &Glimpse| {
             assert_eq!(glimpse.at.len(), glimpse.class.len());
             let lowest = glimpse.at.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
-            seen.borrow_mut().push((glimpse.mesh.spacing, lowest));
+            seen.borrow_mut().push((glimpse.mesh.spacing, glimpse.reached, lowest));
             let picture = job.draw_glimpse(glimpse, &PictureLayout::default()).expect("a picture");
             assert!(picture.starts_with(b"\x89PNG"));
         };
         let mut run = Run::new(&job).watched_by(&watch);
         run.drape(&mut |_, _| {}).expect("draped");
         let seen = seen.into_inner();
-        assert_eq!(seen.iter().map(|(spacing, _)| *spacing).collect::<Vec<_>>(), [COARSEST; 2]);
-        assert_ne!(seen[0].1, seen[1].1, "the hem hangs elsewhere once the skirt is draped");
+        let [begun, sewn, draped] = seen[..] else { panic!("{seen:?}") };
+        assert!(begun.0 > COARSEST && begun.1 == Reached::Begun, "{begun:?}");
+        assert_eq!([(sewn.0, sewn.1), (draped.0, draped.1)], [(COARSEST, Reached::Sewn), (COARSEST, Reached::Draped)]);
+        assert_ne!(sewn.2, draped.2, "the hem hangs elsewhere once the skirt is draped");
     }
 
     #[test]

@@ -90,7 +90,7 @@ impl Run<'_> {
         garment_glb(garment, mesh, &self.stitching.class, &self.in_file(at), &self.maps(at), &gives)
     }
 
-    fn obj(&self, at: &[Vec3], class: &[u32]) -> Vec<u8> {
+    pub(super) fn obj(&self, at: &[Vec3], class: &[u32]) -> Vec<u8> {
         garment_obj(&self.job.garment.name, &self.job.mesh, class, &self.in_file(at)).into_bytes()
     }
 

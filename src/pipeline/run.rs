@@ -50,9 +50,9 @@ pub struct Run<'a> {
     /// Whether that could not be carried over.
     anew: bool,
     /// Positions of the classes where the earlier garment hangs. Draping starts with them, and nothing is sewn.
-    hanging: Option<Vec<Vec3>>,
-    /// The function that is told of coarser levels.
-    watch: Watch<'a>,
+    pub(super) hanging: Option<Vec<Vec3>>,
+    /// The function that is told of coarser levels, if there is one.
+    watch: Option<Watch<'a>>,
 }
 
 impl<'a> Run<'a> {
@@ -78,13 +78,18 @@ impl<'a> Run<'a> {
             earlier: None,
             anew: false,
             hanging: None,
-            watch: &|_| {},
+            watch: None,
         }
     }
 
-    /// The same, with `watch` told of every coarser level that is sewn or draped on the way.
+    /// The same, with `watch` shown the garment before it is sewn, and told of every coarser level that is sewn or
+    /// draped on the way.
     pub fn watched_by(self, watch: Watch<'a>) -> Self {
-        Self { watch, ..self }
+        Self { watch: Some(watch), ..self }
+    }
+
+    fn watch(&self) -> Watch<'a> {
+        self.watch.unwrap_or(&|_| {})
     }
 
     /// Places the pieces round the body and closes the seams.
@@ -106,7 +111,8 @@ impl<'a> Run<'a> {
             Some(Continued::Sewn(closed)) => *closed,
             None => {
                 self.anew = self.earlier.is_some();
-                let closed = job.sew_from_coarse(&job.mesh, self.watch, &mut tell);
+                self.watch.iter().for_each(|watch| job.look_first(watch));
+                let closed = job.sew_from_coarse(&job.mesh, self.watch(), &mut tell);
                 closed.inspect_err(|_| self.placed = job.placed(&job.mesh).ok()).map_err(failed)?
             }
         };
@@ -152,7 +158,8 @@ impl<'a> Run<'a> {
         let sewn = hanging.clone();
         let sewn = sewn.unwrap_or_else(|| gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default()));
         let mut tell = |share| progress("drape", share);
-        let from_coarse = |coarse| job.start_from_coarse(&job.mesh, coarse, self.watch, &mut tell);
+        let watch = self.watch();
+        let from_coarse = |coarse| job.start_from_coarse(&job.mesh, coarse, watch, &mut tell);
         let start = hanging.or_else(|| self.coarse.as_deref().and_then(from_coarse));
         let options = DrapeOptions { near: start.is_some(), ..DrapeOptions::default() };
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };

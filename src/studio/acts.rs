@@ -1,8 +1,10 @@
 //! Acts: changes of the garment file by clicks and typed lengths. Every act is a change of the text in one place or
 //! a few, with all comments kept, and the file that comes out can be read.
 
+mod altering;
 mod edges;
 mod rename;
+mod wearer;
 
 use std::path::Path;
 
@@ -12,8 +14,8 @@ use super::view::label;
 use crate::digitize::suggestions;
 use crate::fabric;
 use crate::io::garment::{Edit, EditError, KeyPath, edited, examine_text, read_file_only, scalar, seam_line};
-use crate::mannequin;
 use crate::pattern::{GarmentFile, Located, PlaceWord, SeamFile, Spot, Value, fabrics, parse_quantity};
+pub(super) use altering::told;
 use edges::{drawn, freed, restricted, sewn_in, unfreed};
 
 /// Longest name, and longest length as typed, characters.
@@ -46,10 +48,20 @@ pub(super) enum Act {
     Body { name: String },
     /// A length that the file has.
     Length { path: KeyPath, value: String },
+    /// A measure of the wearer. An empty value removes it.
+    Measure { name: String, value: String },
+    /// Adds alterations, as a garment file writes them or as JSON.
+    Alter { alteration: String },
+    /// Takes an alteration out, by its number from 0.
+    Unalter { number: usize },
     /// Ease of a seam: the excess length of its second side. An empty value removes the statement.
     Ease { seam: String, value: String },
     /// Spacing of the mesh, mm. It is no part of the file.
     Spacing { mm: f64 },
+    /// A size of the garment to make. None is the garment as drawn and altered. It is no part of the file.
+    Size { name: Option<String> },
+    /// Sews the garment from nothing, and not from where the one before hung.
+    Anew,
     /// Undoes the last act.
     Undo,
     /// Does it again.
@@ -77,6 +89,9 @@ pub(super) enum ActError {
     /// A spacing that is not offered.
     #[error("this spacing is not offered")]
     Spacing,
+    /// A size that the file does not have.
+    #[error("the file has no size '{0}'")]
+    Size(String),
 }
 
 /// A file after an act, and the act in words.
@@ -117,6 +132,9 @@ impl Act {
         if matches!(self, Self::Name { .. }) && errors(&new) > errors(text) {
             return sense("this edge is named in a place that only an editor can change");
         }
+        if matches!(self, Self::Alter { .. }) {
+            altering::carried_out(text, &new, &shown)?;
+        }
         match read_file_only(&shown, &new) {
             Ok(_) => Ok(Done { text: new, label }),
             Err(refused) => sense(refused.diagnostics.first().map(|d| d.message.clone()).unwrap_or_default()),
@@ -153,10 +171,15 @@ impl Act {
             Self::Name { edge, name } => rename::edits(said, text, edge, name),
             Self::Place { piece, words } => placing(said, piece, words),
             Self::Fabric { name, cloth } => cloth_of(said, name, cloth),
-            Self::Body { name } => dressing(said, name),
+            Self::Body { name } => wearer::dressed(said, name),
+            Self::Measure { name, value } => wearer::measured(said, name, value),
+            Self::Alter { alteration } => altering::added(alteration),
+            Self::Unalter { number } => altering::dropped(said, *number),
             Self::Length { path, value } => length(path, value),
             Self::Ease { seam, value } => easing(said, seam, value),
-            Self::Spacing { .. } | Self::Undo | Self::Redo => sense("this is no change of the file"),
+            Self::Spacing { .. } | Self::Size { .. } | Self::Anew | Self::Undo | Self::Redo => {
+                sense("this is no change of the file")
+            }
         }
     }
 }
@@ -233,17 +256,6 @@ fn cloth_of(said: &GarmentFile, name: &str, cloth: &str) -> Result<(Vec<Edit>, S
         ));
     }
     Ok((vec![Edit::Set(path(&["fabrics", name]), yaml(cloth)?)], format!("cut {name} from {cloth}")))
-}
-
-fn dressing(said: &GarmentFile, name: &str) -> Result<(Vec<Edit>, String), ActError> {
-    if !mannequin::library().contains(&name) {
-        return sense(format!("there is no mannequin '{name}'"));
-    }
-    let at = if said.body_measures.is_empty() { path(&["body"]) } else { path(&["body", "like"]) };
-    let mut edits = vec![Edit::Set(at, yaml(name)?)];
-    // The unit was that of a body of one's own.
-    edits.extend(said.body_units.iter().map(|_| Edit::Remove(path(&["body_units"]))));
-    Ok((edits, format!("dress {name}")))
 }
 
 /// A length as typed, as the file has it.

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::earlier::{begun, is_sound};
 use crate::flatten;
 use crate::geometry::MM;
-use crate::io::garment::Variant;
-use crate::pipeline::{Glimpse, Job, Overrides, PipelineError, Run, json_text, read_variant};
+use crate::pipeline::{Glimpse, Job, Overrides, PipelineError, Reached, Run, json_text, read_variant};
 
 /// Bytes of a frame. A garment of a million particles has fewer.
 const LARGEST: u32 = 1 << 28;
@@ -26,6 +26,8 @@ pub(super) enum Frame {
     About(About),
     /// The garment, as binary glTF.
     Garment(Vec<u8>),
+    /// The garment as `garment.obj`, for the next one to go on from. The report follows.
+    Surface(Vec<u8>),
     /// The text of `report.json`.
     Report(String),
     /// The stage under way, and the share of it that is done.
@@ -45,6 +47,8 @@ pub(super) struct About {
     pub(super) fabric: String,
     /// Spacing of the mesh, mm.
     pub(super) spacing: f64,
+    /// How far it has come, in words.
+    pub(super) reached: String,
     /// Whether it is the one that was asked for, at rest, and not on its way.
     pub(super) done: bool,
 }
@@ -52,11 +56,12 @@ pub(super) struct About {
 impl Frame {
     /// # Errors
     /// A reader that is gone.
-    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (kind, bytes) = match self {
             Self::Body(bytes) => (b'b', bytes.clone()),
             Self::About(about) => (b'a', serde_json::to_vec(about)?),
             Self::Garment(bytes) => (b'g', bytes.clone()),
+            Self::Surface(bytes) => (b's', bytes.clone()),
             Self::Report(text) => (b'r', text.clone().into_bytes()),
             Self::Progress(stage, share) => (b'p', serde_json::to_vec(&(stage, share))?),
             Self::Failed(text) => (b'f', text.clone().into_bytes()),
@@ -83,6 +88,7 @@ impl Frame {
             b'b' => Self::Body(bytes),
             b'a' => Self::About(serde_json::from_slice(&bytes).ok()?),
             b'g' => Self::Garment(bytes),
+            b's' => Self::Surface(bytes),
             b'r' => Self::Report(String::from_utf8(bytes).ok()?),
             b'p' => serde_json::from_slice(&bytes).ok().map(|(stage, share)| Self::Progress(stage, share))?,
             b'f' => Self::Failed(String::from_utf8(bytes).ok()?),
@@ -91,11 +97,12 @@ impl Frame {
     }
 }
 
-/// Makes a garment and writes it in frames, coarser levels first. A garment that cannot be made is a frame, too.
+/// Makes a garment and writes it in frames, coarser levels first. It goes on from the one in the file `earlier`, which
+/// the studio has written, if it can. A garment that cannot be made is a frame, too.
 ///
 /// # Errors
 /// A reader that is gone.
-pub fn write_frames(file: &Path, overrides: &Overrides, out: impl Write) -> io::Result<()> {
+pub fn write_frames(file: &Path, overrides: &Overrides, earlier: Option<&Path>, out: impl Write) -> io::Result<()> {
     let out = RefCell::new(out);
     let gone = RefCell::new(None);
     let send = |frame: Frame| {
@@ -103,38 +110,49 @@ pub fn write_frames(file: &Path, overrides: &Overrides, out: impl Write) -> io::
             gone.borrow_mut().get_or_insert(error);
         }
     };
-    if let Err(error) = make(file, overrides, &send) {
+    if let Err(error) = make(file, overrides, earlier, &send) {
         send(Frame::Failed(error.to_string()));
     }
     gone.into_inner().map_or(Ok(()), Err)
 }
 
-fn make(file: &Path, overrides: &Overrides, send: &dyn Fn(Frame)) -> Result<(), PipelineError> {
-    let loaded = read_variant(file, Variant::default())?;
+fn make(file: &Path, overrides: &Overrides, earlier: Option<&Path>, send: &dyn Fn(Frame)) -> Result<(), PipelineError> {
+    let loaded = read_variant(file, overrides.variant())?;
     let job = Job::new(file, loaded, overrides)?;
     send(Frame::Body(job.body_glb()));
-    let about = |spacing: f64, done: bool| About {
+    let about = |spacing: f64, reached: &str, done: bool| About {
         garment: job.garment.title.clone(),
         mannequin: job.body.name.clone(),
         fabric: job.fabric_names(),
         spacing: MM * spacing,
+        reached: reached.to_owned(),
         done,
     };
     let watch = |glimpse: &Glimpse| {
-        send(Frame::About(about(glimpse.mesh.spacing, false)));
+        let reached = match glimpse.reached {
+            Reached::Begun => "before it is sewn",
+            Reached::Sewn => "sewn",
+            Reached::Draped => "draped",
+        };
+        send(Frame::About(about(glimpse.mesh.spacing, reached, false)));
         send(Frame::Garment(job.glimpse_glb(glimpse)));
     };
-    let show = |run: &Run, done: bool| {
+    let show = |run: &Run, reached: &str, done: bool| {
         if let Some(surface) = run.surface() {
-            send(Frame::About(about(job.mesh.spacing, done)));
+            send(Frame::About(about(job.mesh.spacing, reached, done)));
             send(Frame::Garment(surface));
         }
     };
-    let mut run = Run::new(&job).watched_by(&watch);
-    let made = stages(&mut run, send, &|run| show(run, false));
+    let mut run = begun(&job, earlier).watched_by(&watch);
+    let hung = |run: &Run| if run.is_carried() { "where the one before hung" } else { "sewn" };
+    let made = stages(&mut run, send, &|run| show(run, hung(run), false));
     let report = made.is_ok().then(|| run.report());
-    show(&run, report.is_some());
+    let reached = if report.is_some() { "draped" } else { "as far as it came" };
+    show(&run, reached, report.is_some());
     if let Some(report) = report {
+        if is_sound(&report) {
+            run.garment_obj().into_iter().for_each(|surface| send(Frame::Surface(surface)));
+        }
         send(Frame::Report(json_text(&report)?));
     }
     made
@@ -166,6 +184,7 @@ mod tests {
             Frame::Body(vec![1, 2, 3]),
             Frame::About(about),
             Frame::Garment(Vec::new()),
+            Frame::Surface(vec![4]),
             Frame::Report("{}".into()),
             Frame::Progress("sew".into(), 0.25),
             Frame::Failed("no body".into()),

@@ -1,5 +1,6 @@
 //! The process that makes the garment. It ends when the studio does, or when the file has changed again.
 
+use std::ffi::OsStr;
 use std::io::BufReader;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -8,11 +9,14 @@ use std::thread::{self, JoinHandle};
 
 use super::StudioOptions;
 use super::frames::Frame;
-use super::session::Session;
+use super::session::{Session, Wanted};
+use crate::io::files::Private;
 
 /// A garment that is being made.
 pub(super) struct Making {
     child: Child,
+    /// The file with the garment that it goes on from.
+    _earlier: Option<Private>,
     reader: Option<JoinHandle<()>>,
 }
 
@@ -23,16 +27,19 @@ impl Making {
     /// A process or a thread that cannot be started.
     pub(super) fn start(
         file: &Path,
-        spacing: f64,
+        wanted: &Wanted,
         options: &StudioOptions,
         session: Arc<Session>,
     ) -> std::io::Result<Self> {
         let mut words = options.program.iter();
         let mut command = Command::new(words.next().cloned().unwrap_or_default());
+        let earlier = session.earlier();
         // The worker ends when its standard input does.
         command.args(words).arg("--worker=0");
         command.args(options.threads.map(|threads| format!("--threads={threads}")));
-        command.arg("studio").arg("--frames").arg(format!("--spacing={spacing}")).arg("--").arg(file);
+        command.arg("studio").arg("--frames").arg(format!("--spacing={}", wanted.spacing));
+        command.args(earlier.iter().flat_map(|file| [OsStr::new("--earlier"), file.path().as_os_str()]));
+        command.args(wanted.size.iter().map(|size| format!("--size={size}"))).arg("--").arg(file);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         // Ctrl-C on a terminal is for the studio.
         #[cfg(unix)]
@@ -46,7 +53,7 @@ impl Making {
             }
             session.ended();
         };
-        let mut making = Self { child, reader: None };
+        let mut making = Self { child, _earlier: earlier, reader: None };
         making.reader = Some(thread::Builder::new().name("frames".into()).spawn(read)?);
         Ok(making)
     }

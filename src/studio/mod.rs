@@ -14,6 +14,7 @@
 
 mod acts;
 mod door;
+mod earlier;
 mod frames;
 mod history;
 mod http;
@@ -36,7 +37,7 @@ pub use private::opened;
 pub use session::SPACINGS;
 
 use door::Door;
-use session::Session;
+use session::{Session, Wanted};
 
 /// A studio that cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +49,14 @@ pub enum StudioError {
         file: PathBuf,
         /// The reason.
         why: String,
+    },
+    /// A size that the file does not have.
+    #[error("{}: it has no size '{size}'; leave out --size to see which it has", file.display())]
+    Size {
+        /// The file.
+        file: PathBuf,
+        /// The size.
+        size: String,
     },
     /// The port is in use, or may not be used.
     #[error("cannot serve on port {port} of 127.0.0.1: {why}; choose another one with --port, or leave it out")]
@@ -72,6 +81,8 @@ pub struct StudioOptions {
     pub port: u16,
     /// Spacing of the mesh at the beginning, mm.
     pub spacing: f64,
+    /// Size of the garment at the beginning. `None` is as it is drawn and altered.
+    pub size: Option<String>,
     /// The command that starts this program again. It makes the garment.
     pub program: Vec<OsString>,
     /// Threads of that process. `None` is as many as the machine has.
@@ -92,7 +103,8 @@ impl Studio {
     /// # Errors
     /// [`StudioError`]: a file that cannot be read, or a port that cannot be had.
     pub fn open(file: &Path, options: StudioOptions) -> Result<Self, StudioError> {
-        let session = Session::new(file, options.spacing)?;
+        let wanted = Wanted { spacing: options.spacing, size: options.size.clone() };
+        let session = Session::new(file, wanted)?;
         let port = |why| StudioError::Port { port: options.port, why };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(port)?;
         let door = Door::new(listener.local_addr().map_err(port)?.port())?;

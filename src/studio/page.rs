@@ -5,11 +5,14 @@ use std::sync::LazyLock;
 use crate::report::page_parts;
 
 /// The studio's own scripts, in the order in which they are joined after those of the report.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("page/talk.js"),
     include_str!("page/board.js"),
     include_str!("page/chosen.js"),
     include_str!("page/mannequin.js"),
+    include_str!("page/colors.js"),
+    include_str!("page/alter.js"),
+    include_str!("page/wearer.js"),
     include_str!("page/panel.js"),
     include_str!("page/studio.js"),
 ];

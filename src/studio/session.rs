@@ -8,15 +8,37 @@ use serde::Serialize;
 
 use super::StudioError;
 use super::acts::{Act, ActError, Done};
+use super::earlier::Kept;
 use super::frames::{About, Frame};
 use super::history::History;
 use super::view::{View, view};
 use crate::input::bytes;
-use crate::io::files::write_all;
-use crate::io::garment::LARGEST_FILE;
+use crate::io::files::{Private, write_all};
+use crate::io::garment::{LARGEST_FILE, read_file_only};
+use crate::pattern::GarmentFile;
 
 /// Spacings of the mesh that the page may ask for, mm.
 pub const SPACINGS: [f64; 6] = [8.0, 10.0, 12.0, 15.0, 20.0, 25.0];
+
+/// Longest time that a check of the file may take: many times that of the largest garment on a busy machine.
+const LONGEST_CHECK: Duration = Duration::from_secs(60);
+
+/// What the page asks for and the file does not say.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Wanted {
+    /// Spacing of the mesh, mm.
+    pub(super) spacing: f64,
+    /// A size of the garment, for as long as the file has it.
+    pub(super) size: Option<String>,
+}
+
+impl Wanted {
+    /// The same of a file: without a size that it does not have.
+    pub(super) fn of(&self, said: Option<&GarmentFile>) -> Self {
+        let has = |size: &String| said.is_some_and(|said| said.sizes.iter().any(|own| own.name.value == *size));
+        Self { size: self.size.clone().filter(has), ..self.clone() }
+    }
+}
 
 /// The state of a studio.
 pub(super) struct Session {
@@ -30,9 +52,14 @@ struct Inner {
     /// The file as it was read last, or why it cannot be read.
     text: String,
     unreadable: Option<String>,
-    /// Whether a garment can be made of it.
-    is_sound: bool,
-    spacing: f64,
+    /// Whether a garment can be made of it. `None` while that is being looked at.
+    is_sound: Option<bool>,
+    wanted: Wanted,
+    /// Frames of a garment that came before that was known.
+    early: Vec<Frame>,
+    /// The last garment that came out well, and the surface of the next one, whose report is still to come.
+    kept: Option<Kept>,
+    surface: Option<Vec<u8>>,
     history: History,
     state: Arc<String>,
     body: Arc<Vec<u8>>,
@@ -79,9 +106,12 @@ impl Session {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(super) fn new(file: &Path, spacing: f64) -> Result<Self, StudioError> {
+    pub(super) fn new(file: &Path, wanted: Wanted) -> Result<Self, StudioError> {
         let text = read(file).map_err(|why| StudioError::File { file: file.to_owned(), why })?;
-        let inner = Inner { text, spacing, ..Inner::default() };
+        if let (Ok(said), Some(size)) = (read_file_only("", &text), &wanted.size) {
+            known(&said, size).map_err(|_| StudioError::Size { file: file.to_owned(), size: size.clone() })?;
+        }
+        let inner = Inner { text, wanted, ..Inner::default() };
         let session = Self { file: file.to_owned(), inner: Mutex::new(inner), changed: Condvar::new() };
         session.see();
         Ok(session)
@@ -96,7 +126,7 @@ impl Session {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Looks at the file. Whether it is another than before.
+    /// Looks at the file. Whether it is another than before: then [`Self::see`] has to be asked.
     pub(super) fn look(&self) -> bool {
         // Read under the lock: an act must not write in between.
         let mut inner = self.lock();
@@ -106,8 +136,7 @@ impl Session {
             Ok(text) => (inner.text, inner.unreadable) = (text, None),
             Err(why) => inner.unreadable = Some(why),
         }
-        drop(inner);
-        self.see();
+        inner.is_sound = None;
         true
     }
 
@@ -116,21 +145,40 @@ impl Session {
         let mut inner = self.lock();
         // From now on no act is done that was meant for the state before.
         inner.news.state += 1;
-        let (text, unreadable, spacing) = (inner.text.clone(), inner.unreadable.clone(), inner.spacing);
+        inner.is_sound = None;
+        let (text, unreadable, wanted) = (inner.text.clone(), inner.unreadable.clone(), inner.wanted.clone());
         drop(inner);
         // A check takes a while, in which the page is served.
-        let view = view(&self.file, &text, unreadable.as_deref(), spacing);
+        let view = view(&self.file, &text, unreadable.as_deref(), &wanted);
         let mut inner = self.lock();
-        if (&inner.text, &inner.unreadable, inner.spacing) == (&text, &unreadable, spacing) {
+        if (&inner.text, &inner.unreadable, &inner.wanted) == (&text, &unreadable, &wanted) {
             inner.renew(view);
             self.changed.notify_all();
         }
     }
 
-    /// The spacing, mm, if a garment can be made of the file.
-    pub(super) fn makeable(&self) -> Option<f64> {
+    /// Whether a garment can be made of the file, as soon as that is known. One that is not known for very long cannot.
+    pub(super) fn is_sound(&self) -> bool {
         let inner = self.lock();
-        inner.is_sound.then_some(inner.spacing)
+        let known = self.changed.wait_timeout_while(inner, LONGEST_CHECK, |inner| inner.is_sound.is_none());
+        known.unwrap_or_else(PoisonError::into_inner).0.is_sound == Some(true)
+    }
+
+    /// What is wanted of the file as it was read last.
+    pub(super) fn wanted(&self) -> Wanted {
+        let (text, wanted) = {
+            let inner = self.lock();
+            (inner.text.clone(), inner.wanted.clone())
+        };
+        wanted.of(read_file_only("", &text).ok().as_ref())
+    }
+
+    /// The garment that the next one may go on from, in a file. `None` where there is none, or that one is put on in
+    /// another way.
+    pub(super) fn earlier(&self) -> Option<Private> {
+        let inner = self.lock();
+        let said = read_file_only("", &inner.text).ok()?;
+        inner.kept.as_ref().filter(|kept| kept.leads_to(&said))?.in_file().ok()
     }
 
     /// The text of the file as it was read last.
@@ -141,6 +189,7 @@ impl Session {
     /// A garment is being made, or not.
     pub(super) fn begun(&self, making: bool) {
         let mut inner = self.lock();
+        inner.early.clear();
         inner.news = News { making, stage: String::new(), share: 0.0, failed: None, ..inner.news.clone() };
         self.changed.notify_all();
     }
@@ -155,24 +204,11 @@ impl Session {
     /// Takes what the process that makes the garment has to say.
     pub(super) fn take(&self, frame: Frame) {
         let mut inner = self.lock();
-        match frame {
-            Frame::Body(bytes) if bytes == *inner.body => return,
-            Frame::Body(bytes) => {
-                inner.body = Arc::new(bytes);
-                inner.news.body += 1;
-            }
-            Frame::About(about) => inner.about = about,
-            Frame::Garment(bytes) => {
-                inner.garment = Arc::new(bytes);
-                inner.news.garment += 1;
-            }
-            Frame::Report(text) => {
-                inner.report = Arc::new(text);
-                inner.news.report = inner.news.garment;
-            }
-            Frame::Progress(stage, share) => (inner.news.stage, inner.news.share) = (stage, share),
-            Frame::Failed(why) => inner.news.failed = Some(why),
+        if inner.is_sound.is_none() {
+            // Of a file with mistakes nothing is shown.
+            return inner.early.push(frame);
         }
+        inner.take(frame);
         self.changed.notify_all();
     }
 
@@ -213,7 +249,13 @@ impl Session {
             return Err(ActError::Old);
         }
         if let Act::Spacing { mm } = act {
-            inner.spacing = *SPACINGS.iter().find(|spacing| *spacing == mm).ok_or(ActError::Spacing)?;
+            inner.wanted.spacing = *SPACINGS.iter().find(|spacing| *spacing == mm).ok_or(ActError::Spacing)?;
+        } else if *act == Act::Anew {
+            inner.kept = None;
+        } else if let Act::Size { name } = act {
+            let said = read_file_only("", &inner.text).map_err(|e| ActError::File(e.to_string()))?;
+            name.iter().try_for_each(|size| known(&said, size))?;
+            inner.wanted.size.clone_from(name);
         } else {
             let there = read(&self.file).map_err(ActError::File)?;
             if there != inner.text {
@@ -234,19 +276,55 @@ impl Session {
             }
             inner.text = done.text;
         }
+        // The garment is begun while it is still being looked at whether one can be made.
+        inner.is_sound = None;
+        inner.asked += 1;
+        self.changed.notify_all();
         drop(inner);
         self.see();
-        // Only now is it known whether a garment can be made of the file.
-        self.lock().asked += 1;
-        self.changed.notify_all();
         Ok(())
     }
 }
 
+/// # Errors
+/// A size that the file does not have.
+fn known(said: &GarmentFile, size: &str) -> Result<(), ActError> {
+    let has = said.sizes.iter().any(|own| own.name.value == size);
+    if has { Ok(()) } else { Err(ActError::Size(size.to_owned())) }
+}
+
 impl Inner {
+    fn take(&mut self, frame: Frame) {
+        match frame {
+            Frame::Body(bytes) if bytes == *self.body => {}
+            Frame::Body(bytes) => {
+                self.body = Arc::new(bytes);
+                self.news.body += 1;
+            }
+            Frame::About(about) => self.about = about,
+            Frame::Garment(bytes) => {
+                self.garment = Arc::new(bytes);
+                self.news.garment += 1;
+            }
+            Frame::Surface(bytes) => self.surface = Some(bytes),
+            Frame::Report(text) => {
+                let said = read_file_only("", &self.text).ok();
+                let fresh = self.surface.take().zip(said).map(|(surface, said)| Kept::new(surface, &text, &said));
+                // One that did not come out well is none to go on from; the one before it may be.
+                self.kept = fresh.or_else(|| self.kept.take());
+                self.report = Arc::new(text);
+                self.news.report = self.news.garment;
+            }
+            Frame::Progress(stage, share) => (self.news.stage, self.news.share) = (stage, share),
+            Frame::Failed(why) => self.news.failed = Some(why),
+        }
+    }
+
     /// Takes a new state of the file.
     fn renew(&mut self, View { mut json, is_sound }: View) {
-        self.is_sound = is_sound;
+        self.is_sound = Some(is_sound);
+        let early = std::mem::take(&mut self.early);
+        early.into_iter().filter(|_| is_sound).for_each(|frame| self.take(frame));
         self.news.state += 1;
         json["version"] = self.news.state.into();
         json["undo"] = self.history.undoable(&self.text).into();

@@ -5,12 +5,13 @@ use std::path::Path as FilePath;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::session::SPACINGS;
+use super::acts::told;
+use super::session::{SPACINGS, Wanted};
 use crate::digitize::suggestions;
 use crate::fabric;
 use crate::geometry::{MM, Path, Vec2};
 use crate::io::garment::{KeyPath, Variant, read_file_only, scalars};
-use crate::mannequin;
+use crate::mannequin::{self, measure_names};
 use crate::pattern::{
     CutKind, Diagnostic, GarmentFile, PieceFile, PlaceFile, PlaceWord, Severity, fabrics, glob, parse_quantity,
     whole_pieces,
@@ -79,10 +80,12 @@ struct LengthView {
 }
 
 /// Shows a file. One that is no garment yet is shown as far as it can be read.
-pub(super) fn view(file: &FilePath, text: &str, unreadable: Option<&str>, spacing: f64) -> View {
+pub(super) fn view(file: &FilePath, text: &str, unreadable: Option<&str>, wanted: &Wanted) -> View {
     let shown = file.display().to_string();
     let said = read_file_only(&shown, text).ok();
-    let checked = check_text(file, text, Variant::default(), Some(spacing / MM));
+    let wanted = wanted.of(said.as_ref());
+    let variant = Variant { size: wanted.size.as_deref(), alter: &[] };
+    let checked = check_text(file, text, variant, Some(wanted.spacing / MM));
     let mut problems: Vec<ProblemView> = match &checked {
         Ok(checked) => problems(&checked.loaded.warnings, said.as_ref()),
         Err(refused) => problems(&refused.diagnostics, said.as_ref()),
@@ -101,8 +104,10 @@ pub(super) fn view(file: &FilePath, text: &str, unreadable: Option<&str>, spacin
         "file": shown,
         "sound": is_sound,
         "problems": problems,
-        "spacing": spacing,
+        "spacing": wanted.spacing,
         "spacings": SPACINGS,
+        "size": wanted.size,
+        "measures": measure_names().collect::<Vec<_>>(),
         "bodies": mannequin::library(),
         "cloths": fabric::library(),
         "words": PlaceWord::all().map(PlaceWord::name).collect::<Vec<_>>(),
@@ -138,6 +143,8 @@ fn statements(said: &GarmentFile, text: &str) -> Value {
         "free": values(&said.free),
         "suggestions": offers,
         "lengths": lengths(text),
+        "sizes": said.sizes.iter().map(|size| &size.name.value).collect::<Vec<_>>(),
+        "alterations": said.alter.iter().map(|own| told(&own.value)).collect::<Vec<_>>(),
     })
 }
 

@@ -30,30 +30,40 @@ pub(super) fn start(session: Arc<Session>, options: &StudioOptions) -> io::Resul
 fn watch(session: &Arc<Session>, options: &StudioOptions) {
     let mut asked = 0;
     let mut beside: Vec<(PathBuf, Stamp)> = Vec::new();
-    let mut making = begin(session, options, &mut beside);
+    let mut making = begin(session, options, &mut beside, false);
     loop {
         let before = asked;
         session.wait(&mut asked, LOOK);
         let others = beside.iter().any(|(file, known)| stamp(file) != *known);
-        let is_new = session.look();
-        if others && !is_new {
-            session.see();
-        }
-        if is_new || others || asked != before {
+        // An act has it looked at by itself.
+        let is_unseen = session.look() || others;
+        if is_unseen || asked != before {
             // A garment of the file as it was is of no use any more.
             drop(making.take());
-            making = begin(session, options, &mut beside);
+            making = begin(session, options, &mut beside, is_unseen);
         }
     }
 }
 
-/// Starts to make the garment, if the file has no mistakes, and notes which files it depends on.
-fn begin(session: &Arc<Session>, options: &StudioOptions, beside: &mut Vec<(PathBuf, Stamp)>) -> Option<Making> {
+/// Starts to make the garment and notes which files it depends on. Meanwhile it is looked at whether the file has
+/// mistakes, here if it `is_unseen`. If it has, nothing is made.
+fn begin(
+    session: &Arc<Session>,
+    options: &StudioOptions,
+    beside: &mut Vec<(PathBuf, Stamp)>,
+    is_unseen: bool,
+) -> Option<Making> {
     *beside = named(session.file(), &session.text()).into_iter().map(|file| (file.clone(), stamp(&file))).collect();
-    let spacing = session.makeable();
-    session.begun(spacing.is_some());
-    let started = Making::start(session.file(), spacing?, options, Arc::clone(session));
-    started.inspect_err(|_| session.ended()).ok()
+    session.begun(true);
+    let making = Making::start(session.file(), &session.wanted(), options, Arc::clone(session));
+    if is_unseen {
+        session.see();
+    }
+    let making = making.ok().filter(|_| session.is_sound());
+    if making.is_none() {
+        session.begun(false);
+    }
+    making
 }
 
 /// Files that a garment file names: its fabrics' and its body's.

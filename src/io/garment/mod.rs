@@ -40,7 +40,7 @@ pub use refuse::Refused;
 pub(crate) use refuse::refuse;
 use refuse::{accept, text_of};
 pub use source::LARGEST_FILE;
-pub use variant::{Variant, alterations_in};
+pub use variant::{Variant, alterations_in, alterations_of};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
 pub const SCHEMA: &str = include_str!("schema.json");

@@ -59,9 +59,17 @@ pub(super) fn carry_out_read(
 /// # Errors
 /// Every mistake of the text.
 pub fn alterations_in(text: &str) -> Result<usize, Refused> {
+    alterations_of(text).map(|list| list.len())
+}
+
+/// Reads a text of alterations without carrying them out: one, a list, or what a file of changes has.
+///
+/// # Errors
+/// Every mistake of the text.
+pub fn alterations_of(text: &str) -> Result<Vec<AlterationFile>, Refused> {
     let mut findings = Findings::new(SHOWN, text);
     let list = parsed(text, &mut findings);
-    refuse(findings).map(|()| list.len())
+    refuse(findings).map(|()| list.into_iter().map(|own| own.value).collect())
 }
 
 fn parsed(text: &str, findings: &mut Findings) -> Vec<Located<AlterationFile>> {

@@ -26,6 +26,17 @@ function table(title, head, rows) {
   return [element("h2", {}, title), element("div", { class: "wide" }, element("table", {}, first, body))];
 }
 
+/** Where the end of a part of the garment comes to, measured against the body: millimetres, and words for them. */
+function lengthWorn({ value, against }) {
+  const below = value < 0;
+  const words = {
+    floor: "above the floor",
+    crotch: below ? "below the body's crotch" : "above the body's crotch",
+  }[against] || (/shoulder$/.test(against) ? `${below ? "inside" : "beyond"} the ${against}`
+    : `${below ? "short of" : "past"} the ${against}`);
+  return [digits(Math.abs(value), 0), words];
+}
+
 /** Fills the section with everything that the report says. `show` takes what is to be shown in the views. */
 function fillTables(section, report, show) {
   const jump = (name, what) => element("button", { type: "button", click: () => show(what) }, name);
@@ -50,23 +61,23 @@ function fillTables(section, report, show) {
   section.append(...table("Girths (mm, kPa)", ["girth", "body", "garment", "as cut", "ease", "mean pressure",
     "largest", "band", "cloth, % of its limit"], fit.girths.map(girth)));
   if (fit.bands) section.append(element("p", {}, `Bands of pressure: ${fit.bands.source}.`));
-  section.append(...table("Lengths as worn (mm)", ["place", "mm", "against", "uneven by"],
-    fit.lengths.map((l) => [l.name, digits(l.value, 0), l.against, digits(l.level, 0)])));
+  section.append(...table("Lengths as worn (mm)", ["place", "mm", "", "uneven by"],
+    fit.lengths.map((l) => [l.name, ...lengthWorn(l), digits(l.level, 0)])));
   section.append(...table("Finished measurements, flat (mm)", ["measurement", "mm"],
     fit.finished.map((f) => [f.name, digits(f.value, 0)])));
   const piece = (p) => [jump(p.name, { piece: p.name }), digits(p.area_flat / 100, 1), percent(p.area_error.drape),
     percent(p.area_error.round_trip), percent(p.strain.mean), percent(p.strain.p99), percent(p.strain.max),
     digits(p.shear.mean, 1), p.stretched ? `stretched ${percent(p.stretched.by)} % by ${p.stretched.why}` : ""];
-  section.append(...table("Pieces (%, shear in degrees)", ["piece", "cm²", "area, draped", "area, flat again",
-    "strain", "99 %", "largest", "shear", ""], report.pieces.map(piece)));
+  section.append(...table("Pieces (%, shear in degrees)", ["piece", "cm²", "area off, draped",
+    "area off, flat again", "strain, mean", "99 % below", "largest", "shear", ""], report.pieces.map(piece)));
   section.append(...table("Seams (mm)", ["seam", "one side", "other side", "mean gap", "largest gap"],
     report.seams.map((s) => [jump(s.name, { seam: s.name }), digits(s.length_a, 1), digits(s.length_b, 1),
       digits(s.gap_mean, 3), digits(s.gap_max, 3)])));
   section.append(...table("Closures (mm)", ["closure", "on", "meets", "points", "largest gap", ""],
     report.closures.map((c) => [c.kind, c.on || "–", c.meets || "–", String(c.points), digits(c.gap_max, 1),
       c.closed ? "done up" : c.note || "OPEN"])));
-  section.append(...table("Openings (mm)", ["opening", "length", "round", "past the limb's end"],
-    report.worn.map((w) => [w.opening, digits(w.length, 0), w.body_part || "NOTHING", digits(w.past_end, 0)])));
+  section.append(...table("Openings (mm)", ["opening", "length", "round"],
+    report.worn.map((w) => [w.opening, digits(w.length, 0), w.body_part || "NOTHING"])));
   section.append(...table("Stages", ["stage", "seconds", "steps", "at rest", "drift, mm"],
     report.stages.map((s) => [s.name, digits(s.seconds, 2), String(s.iterations), s.converged ? "yes" : "NO",
       digits(s.drift && s.drift.rms, 3)])));

@@ -3,6 +3,8 @@
 const find = (id) => document.getElementById(id);
 let [report, cloth, body, runs, lines, maps, map] = [null, null, null, [], null, [], null];
 let [space, flat] = [null, null];
+/** The map that was chosen, which the next garment may have again. */
+let wanted = "fabric";
 
 /** The piece, positions and values at a place of a triangle. */
 function placeAt(hit) {
@@ -117,7 +119,10 @@ find("theme").addEventListener("click", () => {
 
 /** Lets pointers, keys and buttons move the views. Once for a page. */
 function install() {
-  find("map").addEventListener("change", (event) => take(event.target.value));
+  find("map").addEventListener("change", (event) => {
+    wanted = event.target.value;
+    take(wanted);
+  });
   if (space) {
     const view = (name) => {
       space.camera.view(name);
@@ -163,7 +168,7 @@ function load(shown) {
     install();
   }
   find("map").replaceChildren(...maps.map((each) => element("option", { value: each.id }, each.name)));
-  take(map ? map.id : "fabric");
+  take(wanted);
   if (space) space.draw();
 }
 

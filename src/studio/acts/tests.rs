@@ -1,5 +1,6 @@
 use super::*;
 use crate::io::garment::examine_text;
+use crate::mannequin;
 use crate::pattern::Value;
 
 const FILE: &str = "\
@@ -191,6 +192,70 @@ fn lengths_are_typed() {
     for at in [vec!["body"], vec!["pieces", "front", "outline", "waist"], vec!["seams", "close"], vec![]] {
         assert!(done(&Act::Length { path: strings(&at), value: "14".into() }).is_err(), "{at:?}");
     }
+}
+
+fn alter(alteration: &str) -> Act {
+    Act::Alter { alteration: alteration.into() }
+}
+
+#[test]
+fn alterations_are_added_and_taken_out_in_the_words_of_the_file() {
+    let text = done(&alter(r#"{"take_in": "front.hem", "at": {"50 %": "8 mm"}}"#)).expect("altered");
+    assert!(text.starts_with(FILE) && text.ends_with("alter:\n  - {take_in: front.hem, at: {50 %: 8 mm}}\n"), "{text}");
+    let both = "[{lengthen: [front, back], at: 30, by: 5}, {spread: band.top@50 %, to: band.bottom@50 %, by: 4}]";
+    let more = done_in(&text, &alter(both)).expect("altered");
+    assert_eq!(said(&more).alter.len(), 3);
+    let label = alter(both).done(&text, Path::new("skirt.yaml")).expect("altered").label;
+    assert_eq!(
+        label,
+        "lengthen front and back by 5, at y = 30, slash from band.top@50 % to band.bottom@50 % and open by 4"
+    );
+    let less = done_in(&more, &Act::Unalter { number: 1 }).expect("taken out");
+    assert_eq!((said(&less).alter.len(), &said(&less).alter[0].value), (2, &said(&more).alter[0].value));
+    let none = done_in(&text, &Act::Unalter { number: 0 }).expect("taken out");
+    assert_eq!(said(&none), said(FILE));
+    assert!(done_in(&text, &Act::Unalter { number: 1 }).is_err());
+}
+
+#[test]
+fn alterations_that_cannot_be_done_are_refused_with_the_reason() {
+    for (alteration, why) in [
+        ("", "give 1 to 20"),
+        ("[]", "give 1 to 20"),
+        ("{pleat: front}", "unknown alteration"),
+        ("{take_in: side_seam, at: {50 %: 8}}", "side_seam"),
+        ("{take_in: front.hem, at: {50 %: eight}}", "eight"),
+        ("{lengthen: sleeve, at: 30, by: 5}", "sleeve"),
+        // The outline would cross itself.
+        ("{take_in: front.hem, at: {50 %: 300}}", "this cannot be done"),
+        // The band is closed along its ends, of which one becomes longer.
+        ("{move: band.left, at: {0: [0, 4]}}", "close"),
+        ("{take_in: front.hem, at: {50 %: 8}}\nbody: man_100", ""),
+    ] {
+        let refused = done(&alter(alteration)).expect_err(alteration).to_string();
+        assert!(refused.contains(why), "{alteration}: {refused}");
+    }
+    assert!(done(&alter(&"x".repeat(3000))).expect_err("long").to_string().contains("2000"));
+}
+
+#[test]
+fn the_wearer_is_measured() {
+    let measure =
+        |text: &str, name: &str, value: &str| done_in(text, &Act::Measure { name: name.into(), value: value.into() });
+    let text = measure(FILE, "waist", "81 cm").expect("measured");
+    assert_eq!(text, FILE.replace("body: woman_92", "body: {like: woman_92, waist: 81 cm}"));
+    let both = measure(&text, "chest", "1000").expect("measured");
+    assert!(both.contains("body: {like: woman_92, waist: 81 cm, chest: 1000}"), "{both}");
+    assert_eq!(measure(&both, "chest", " "), Ok(text.clone()));
+    assert_eq!(measure(&text, "waist", ""), Ok(FILE.into()));
+    for (name, value) in [("girth", "900"), ("waist", "9000"), ("waist", "wide"), ("hip: 1, seat", "900")] {
+        assert!(measure(FILE, name, value).is_err(), "{name}: {value}");
+    }
+    let twice = measure(&both, "bust", "1000").expect_err("one measure");
+    assert!(twice.to_string().contains("twice"), "{twice}");
+    assert!(measure(FILE, "waist", "").is_err(), "there is none");
+    let nobody = FILE.replace("body: woman_92\n", "");
+    assert!(measure(&nobody, "waist", "810").is_err());
 }
 
 #[test]

@@ -15,14 +15,28 @@ function drawBoard(state, selection, choose, pick) {
     const outline = piece.edges.map((edge, k) => (k ? edge.path.replace(/^M[^A-Za-z]*/, "") : edge.path)).join(" ");
     const cloth = pressable(drawn("path", { class: "cloth", d: outline, id: `piece ${piece.name}`,
       "aria-label": `piece ${piece.name}, cut ${piece.cut}${piece.place ? `, at ${piece.place}` : ""}` }),
-    () => pick(piece.name));
+    (event) => pick(piece.name, heightOf(event)));
     const name = drawn("text", { class: "name", x: boxes[k].middle[0], y: boxes[k].middle[1], "font-size": 15 * scale });
     name.textContent = piece.name;
     return drawn("g", { class: "piece", transform: `translate(${x} ${y})`,
       "aria-current": String(piece.name === selection.piece) }, cloth,
-    ...piece.lines.map((d) => drawn("path", { class: "inner", d })), name,
+    ...piece.lines.map((d) => drawn("path", { class: "inner", d })), ...slash(piece, boxes[k], state, selection), name,
     ...piece.edges.map((edge) => drawnEdge(piece, edge, seams, selection, choose, scale)));
   }));
+}
+
+/** Where on its piece a click was, mm down the drawing. Keys say none. */
+function heightOf(event) {
+  if (typeof event.clientY !== "number" || event.type !== "click") return null;
+  return new DOMPoint(event.clientX, event.clientY).matrixTransform(event.target.getScreenCTM().inverse()).y;
+}
+
+/** The line across a piece where the form for an alteration slashes it. */
+function slash(piece, box, state, selection) {
+  const form = formFor(selection.alter, state, selection);
+  const y = parseFloat(form.at);
+  if (!asksHeight(form) || !form.pieces.includes(piece.name) || !(y >= box.low[1] && y <= box.high[1])) return [];
+  return [drawn("path", { class: "slash", d: `M ${box.low[0] - 15} ${y} L ${box.high[0] + 15} ${y}` })];
 }
 
 /** The words of an edge's state. */

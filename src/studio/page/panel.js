@@ -1,4 +1,4 @@
-// The panel beside the board: what the garment is made of, seams, lengths.
+// The panel beside the garment: what it is made of, seams, lengths.
 
 const group = (title, ...children) => element("fieldset", {}, element("legend", {}, title), ...children);
 
@@ -18,19 +18,20 @@ function typing(id, words, value, taken) {
   return field;
 }
 
-/** Body, fabrics and spacing. */
+/** Size, fabrics and spacing. */
 function garmentGroup(state, act) {
-  const known = state.bodies.includes(state.body) || !state.body ? state.bodies : [state.body, ...state.bodies];
-  const body = element("div", { class: "row", role: "group", "aria-label": "Body" }, "Body",
-    ...known.map((name) => element("button", { type: "button", id: `body ${name}`,
-      "aria-pressed": String(name === state.body), click: () => act({ do: "body", name }) }, name)));
-  const cloths = state.fabrics.map((fabric) => fabric.cloth === null
-    ? element("p", { class: "soft" }, `${fabric.name}: values of its own`)
-    : choice(`fabric ${fabric.name}`, `Fabric: ${fabric.name}`, state.cloths, fabric.cloth,
-      (cloth) => act({ do: "fabric", name: fabric.name, cloth })));
-  const spacing = choice("spacing", "Between particles, mm", state.spacings.map(String), String(state.spacing),
+  const asDrawn = "as drawn";
+  const size = state.sizes.length ? [choice("size", "Size", [asDrawn, ...state.sizes], state.size || asDrawn,
+    (name) => act({ do: "size", name: name === asDrawn ? null : name }))] : [];
+  const cloths = state.fabrics.map((fabric) => element("div", { class: "cloth-row" }, fabric.cloth === null
+    ? element("span", {}, `Fabric ${fabric.name}: values of its own`)
+    : choice(`fabric ${fabric.name}`, `Fabric ${fabric.name}`, state.cloths, fabric.cloth,
+      (cloth) => act({ do: "fabric", name: fabric.name, cloth })), colorField(fabric.name)));
+  const spacing = choice("spacing", "Mesh, mm (finer is slower)", state.spacings.map(String), String(state.spacing),
     (mm) => act({ do: "spacing", mm: Number(mm) }));
-  return group("Garment", body, ...cloths, spacing);
+  const anew = element("button", { type: "button", id: "anew", click: () => act({ do: "anew" }),
+    title: "From nothing, and not from where the garment before hung" }, "Sew anew");
+  return group("Garment", ...size, ...cloths, spacing, anew);
 }
 
 /** Seams that may be meant. */
@@ -59,17 +60,19 @@ function seamGroup(state, act) {
 
 /** Lengths that the file has. */
 function lengthGroup(state, act) {
-  const own = state.lengths.filter(({ path }) => !(path[0] === "seams" && path[2] === "ease"));
+  const elsewhere = (path) => ["alter", "body"].includes(path[0]) || (path[0] === "seams" && path[2] === "ease");
+  const own = state.lengths.filter(({ path }) => !elsewhere(path));
   const row = ({ path, label, value }) => element("label", {}, label,
     typing(`length ${path.join("/")}`, label, value, (value) => act({ do: "length", path, value })));
   return own.length ? group("Lengths", ...own.map(row)) : null;
 }
 
 /** The whole panel. */
-function drawPanel(state, selection, act, covers) {
+function drawPanel(state, selection, act, covers, change) {
   const piece = state.pieces.find((piece) => piece.name === selection.piece);
   const place = piece ? group(`Place of ${piece.name}`, ...drawFigure(piece, selection.cover, covers, act))
     : group("Place", element("p", { class: "soft" }, "Click a piece to place it on the body."));
-  const groups = [garmentGroup(state, act), offerGroup(state, act), place, seamGroup(state, act), lengthGroup(state, act)];
+  const groups = [wearerGroup(state, act), garmentGroup(state, act), offerGroup(state, act),
+    alterGroup(state, selection, act, change), place, seamGroup(state, act), lengthGroup(state, act)];
   find("panel").replaceChildren(...groups.filter(Boolean));
 }

@@ -1,7 +1,7 @@
 // The studio: it listens to what is new, shows it, and asks for acts.
 
 let state = null;
-const selection = { sides: [], piece: null, cover: "" };
+const selection = { sides: [], piece: null, cover: "", alter: emptyForm() };
 const seen = { state: 0, garment: 0, report: 0 };
 /** The body, and its number. */
 const skin = { number: 0, shape: null };
@@ -9,12 +9,15 @@ let isLost = false;
 
 const say = (text) => find("said").textContent = text;
 
-/** Asks for an act, and forgets what was chosen for it. */
+/** Asks for an act, and forgets what was chosen for it. Gives the words in which it was refused, or none. */
 async function act(what) {
+  say("");
   const refused = await ask(state.version, what);
   say(refused);
   if (!refused && ["sew", "free", "unfree", "name"].includes(what.do)) selection.sides = [];
+  if (!refused && what.do === "alter") selection.alter = { ...emptyForm(), kind: selection.alter.kind };
   redrawFile();
+  return refused;
 }
 
 function chooseEdge(edge, onward) {
@@ -22,9 +25,24 @@ function chooseEdge(edge, onward) {
   redrawFile();
 }
 
-function choosePiece(name) {
-  selection.piece = selection.piece === name ? null : name;
+/** A piece chosen; chosen again, none is. Where a height is asked for, the click says it. */
+function choosePiece(name, height) {
+  const again = selection.piece === name;
+  const isAsked = asksHeight(selection.alter) && typeof height === "number";
+  selection.piece = again && !isAsked ? null : name;
+  if (isAsked) {
+    const ticked = formFor(selection.alter, state, selection).pieces;
+    selection.alter.pieces = [...new Set([...ticked, name])];
+    selection.alter.at = height.toFixed(0);
+  }
   redrawFile();
+}
+
+/** New values of the form for an alteration. While one types, the form is left as it is. */
+function changeForm(values, isTyping = false) {
+  Object.assign(selection.alter, values);
+  if (isTyping) drawBoard(state, selection, chooseEdge, choosePiece);
+  else redrawFile();
 }
 
 /** Problems, each with its line and its pieces. */
@@ -54,6 +72,9 @@ function redrawFile() {
     for (const name of ["undo", "redo"]) {
       find(name).disabled = !state[name];
       find(name).title = state[name] || "";
+      const words = name === "undo" ? "Undo" : "Redo";
+      const what = (state[name] || "").length > 40 ? `${state[name].slice(0, 39)}…` : state[name];
+      find(name).textContent = what ? `${words}: ${what}` : words;
     }
     drawProblems();
     drawBoard(state, selection, chooseEdge, choosePiece);
@@ -64,12 +85,13 @@ function redrawFile() {
     drawPanel(state, selection, act, (cover) => {
       selection.cover = cover;
       redrawFile();
-    });
+    }, changeForm);
   });
 }
 
 /** A file of which nothing can be read has no pieces. */
-const whole = (said) => ({ pieces: [], seams: [], free: [], fabrics: [], suggestions: [], lengths: [], ...said });
+const whole = (said) => ({ pieces: [], seams: [], free: [], fabrics: [], suggestions: [], lengths: [],
+  sizes: [], alterations: [], ...said });
 
 async function takeFile() {
   state = whole(await fetched("state.json", "json"));
@@ -86,9 +108,12 @@ async function takeGarment(news) {
   const [about, garment] = await Promise.all([fetched("about.json", "json"), fetched("garment.glb", "arrayBuffer")]);
   const figures = news.report === news.garment ? await fetched("report.json", "json") : null;
   find("shown").hidden = false;
-  load({ report: figures, cloth: joined(readGlb(new Uint8Array(garment))), body: skin.shape });
+  find("nothing").hidden = true;
+  load({ report: figures, cloth: colored(joined(readGlb(new Uint8Array(garment)))), body: skin.shape });
+  showColors(state ? state.fabrics.map((fabric) => fabric.name) : []);
   find("about").textContent = `${about.garment} on ${about.mannequin}, ${about.fabric}, ` +
-    `${about.spacing.toFixed(0)} mm between particles${about.done ? "" : ", on its way"}`;
+    `${about.spacing.toFixed(0)} mm mesh${about.done ? "" : `, on its way: ${about.reached}`}` +
+    (figures && figures.from && !figures.from.anew ? ", gone on from the garment before" : "");
   find("tables").replaceChildren();
   if (figures) fillTables(find("tables"), figures, show);
   document.documentElement.dataset.garment = String(news.garment);
@@ -100,7 +125,8 @@ function tellProgress(news) {
   const share = `${(100 * news.share).toFixed(0)} %`;
   const words = news.failed ? `It cannot be made: ${news.failed}`
     : news.making ? `${stages[news.stage] || "Beginning"} … ${news.stage ? share : ""}`
-      : state && !state.sound ? "The garment is made as soon as the file has no more problems." : "";
+      : state && !state.sound && !find("shown").hidden
+        ? "This is the garment of the file before. The next one is made as soon as the file has no problems." : "";
   if (find("progress").textContent !== words) find("progress").textContent = words;
 }
 
