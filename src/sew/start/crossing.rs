@@ -6,11 +6,16 @@
 
 use std::collections::BTreeSet;
 
+use super::cloth::Distances;
 use super::glue::{Glued, glued};
 use super::laps::matched;
-use crate::geometry::{DisjointSets, Vec2};
+use crate::geometry::{DisjointSets, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Closure, Garment, Seam, Span};
+
+/// A strap that crosses another is led across over this share of its length: that of dungarees crosses below the shoulder
+/// blades.
+const SLANTED: f64 = 0.5;
 
 /// Two seams or closures, each the mirror image of the other, that exchange their partners for the start.
 #[derive(Clone, Debug)]
@@ -115,10 +120,36 @@ impl Exchange {
 }
 
 impl CrossedEnd {
-    /// The nodes of particles of a surface.
-    pub(super) fn nodes(glued: &Glued, particles: &[u32]) -> Vec<u32> {
-        particles.iter().filter_map(|p| glued.node_of[*p as usize]).collect()
+    /// How far on the cloth of `glued` it starts from its place, metres.
+    pub(super) fn shift(&self, glued: &Glued, mesh: &ClothMesh) -> f64 {
+        let far = Distances::new(glued, mesh).from(&nodes(glued, &self.to));
+        nodes(glued, &self.from).into_iter().map(|n| far[n as usize]).fold(0.0, f64::max)
     }
+
+    /// The way to its place from where it starts, when the particles are at `x`. `None` if one of the two has no place.
+    pub(super) fn way(&self, x: &[Option<Vec3>]) -> Option<Vec3> {
+        let middle = |particles: &[u32]| {
+            let places: Vec<Vec3> = particles.iter().filter_map(|p| x[*p as usize]).collect();
+            (!places.is_empty()).then(|| places.iter().sum::<Vec3>() / places.len() as f64)
+        };
+        Some(middle(&self.to)? - middle(&self.from)?)
+    }
+
+    /// The particles of its strap that are led across, with the share of the way across that is left: 1 at the end, 0
+    /// where the strap has come to run straight.
+    pub(super) fn slanted(&self, mesh: &ClothMesh, glued: &Glued) -> Vec<(usize, f64)> {
+        let far = Distances::new(glued, mesh).from(&nodes(glued, &self.end));
+        let pieces: BTreeSet<usize> = self.end.iter().filter_map(|p| mesh.piece_of(*p)).collect();
+        let particles = pieces.into_iter().flat_map(|piece| mesh.pieces[piece].particles.clone());
+        let strap: Vec<(usize, f64)> = particles.filter_map(|p| Some((p, far[glued.node_of[p]? as usize]))).collect();
+        let length = strap.iter().map(|s| s.1).fold(0.0, f64::max);
+        strap.into_iter().map(|(p, far)| (p, (1.0 - far / (SLANTED * length)).clamp(0.0, 1.0))).collect()
+    }
+}
+
+/// The nodes of particles of a surface.
+fn nodes(glued: &Glued, particles: &[u32]) -> Vec<u32> {
+    particles.iter().filter_map(|p| glued.node_of[*p as usize]).collect()
 }
 
 /// The particle of a piece nearest to a flat point of it.

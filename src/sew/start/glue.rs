@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::cloth::Distances;
 use super::crossing::{CrossedEnd, Exchange};
 use super::laps::{Lap, laps};
 use super::layers;
@@ -93,21 +92,12 @@ pub(super) fn glued(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> (
     let uncrossed = |exchange: Exchange| {
         let (mut glued, is_whole) = to_glue.glued(Some(&exchange));
         glued.crossed = exchange.ends(garment, mesh).to_vec();
-        is_whole.then(|| (shift(&glued, mesh), glued, exchange))
+        let shift = |glued: &Glued| glued.crossed.iter().map(|end| end.shift(glued, mesh)).fold(0.0, f64::max);
+        is_whole.then(|| (shift(&glued), glued, exchange))
     };
     // An end that is led over less cloth is led sooner.
     let nearest = Exchange::all(garment).into_iter().filter_map(uncrossed).min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.map_or((plain, None), |(_, glued, exchange)| (glued, Some(exchange)))
-}
-
-/// How far on the cloth the ends of crossed straps start from their places, metres.
-fn shift(glued: &Glued, mesh: &ClothMesh) -> f64 {
-    let cloth = Distances::new(glued, mesh);
-    let of = |end: &CrossedEnd| {
-        let far = cloth.from(&CrossedEnd::nodes(glued, &end.to));
-        CrossedEnd::nodes(glued, &end.from).into_iter().map(|n| far[n as usize]).fold(0.0, f64::max)
-    };
-    glued.crossed.iter().map(of).fold(0.0, f64::max)
 }
 
 /// A garment to be glued.

@@ -1,11 +1,7 @@
 //! From the nodes of the inflated surface to a start of all particles: what lies on other cloth is laid on it.
 
-use std::collections::BTreeSet;
-
 use super::clear::{Ply, clear};
-use super::cloth::Distances;
 use super::cover::into;
-use super::crossing::CrossedEnd;
 use super::glue::{Beyond, Follow, Glued, ROUNDING};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh};
@@ -22,9 +18,6 @@ pub(super) const PLY: f64 = 8e-3;
 /// Either side of an open front is drawn back by this much from where the two were welded, metres. Cloth that starts on
 /// the same spot as other cloth cannot get away from it: no motion is safe, and it is held there for good.
 const UNZIPPED: f64 = 3e-3;
-
-/// A strap that crosses another is led across over this share of its length.
-const SLANTED: f64 = 0.5;
 
 /// A seam's direction is read over so many stitches on either side.
 const ALONG: usize = 2;
@@ -154,31 +147,15 @@ impl ParticleLaying {
 
     /// Leads the ends of crossed straps to their places, one strap over the other.
     fn cross(&mut self, mesh: &ClothMesh, glued: &Glued) {
-        let cloth = Distances::new(glued, mesh);
-        let middle = |x: &[Option<Vec3>], particles: &[u32]| {
-            let places: Vec<Vec3> = particles.iter().filter_map(|p| x[*p as usize]).collect();
-            (!places.is_empty()).then(|| places.iter().sum::<Vec3>() / places.len() as f64)
-        };
         let before = self.x.clone();
         for crossed in &glued.crossed {
-            let (Some(from), Some(to)) = (middle(&before, &crossed.from), middle(&before, &crossed.to)) else {
-                continue;
-            };
-            let far = cloth.from(&CrossedEnd::nodes(glued, &crossed.end));
-            let pieces = crossed.end.iter().filter_map(|p| mesh.piece_of(*p)).collect::<BTreeSet<usize>>();
-            let strap: Vec<(usize, f64)> = pieces
-                .into_iter()
-                .flat_map(|piece| mesh.pieces[piece].particles.clone())
-                .filter_map(|p| Some((p, far[glued.node_of[p]? as usize])))
-                .collect();
-            let length = strap.iter().map(|s| s.1).fold(0.0, f64::max);
-            for (p, far) in strap {
-                let left = (1.0 - far / (SLANTED * length)).clamp(0.0, 1.0);
+            let Some(way) = crossed.way(&before) else { continue };
+            for (p, left) in crossed.slanted(mesh, glued) {
                 let share = left * left * (3.0 - 2.0 * left);
                 let lifted = if crossed.is_over { 4.0 * left * (1.0 - left) * PLY } else { 0.0 };
                 self.plies[p].height += lifted;
                 let outward = self.plies[p].outward;
-                self.x[p] = self.x[p].map(|x| x + (to - from) * share + outward * lifted);
+                self.x[p] = self.x[p].map(|x| x + way * share + outward * lifted);
             }
         }
     }
