@@ -182,11 +182,11 @@ const CIRCLES: [(&str, &[&str]); 16] = [
     (
         "sew/start",
         &[
-            "balloon", "circles", "cloth", "cover", "deal", "glue", "harmonic", "laps", "openings", "reach", "ribbon",
-            "rings", "sides", "star", "unfold", "way_out", "zip",
+            "balloon", "circles", "cloth", "cover", "crossing", "deal", "glue", "harmonic", "laps", "openings",
+            "reach", "ribbon", "rings", "sides", "star", "unfold", "way_out", "zip",
         ],
     ),
-    ("studio", &["acts", "session", "view"]),
+    ("studio", &["acts", "earlier", "frames", "session", "view"]),
 ];
 
 #[test]

@@ -88,6 +88,7 @@ fn measured(garment: &Garment, mesh: &ClothMesh, weld: &[u32], at: &[Vec3]) -> R
         garment,
         mesh,
         weld,
+        uncrossed: None,
         body: &body,
         fabric: "muslin",
         gaps: None,

@@ -103,6 +103,7 @@ impl Band {
             garment: &self.garment,
             mesh: &self.mesh,
             weld: &self.stitching.class,
+            uncrossed: None,
             body: &self.body,
             fabric: "cloth",
             gaps: None,

@@ -229,6 +229,7 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
         garment: &f.garment,
         mesh: &f.mesh,
         weld: &f.weld,
+        uncrossed: None,
         body: &f.body,
         fabric: "muslin",
         gaps: None,

@@ -54,6 +54,7 @@ impl Made {
             garment: &self.garment,
             mesh: &self.mesh,
             weld: &weld,
+            uncrossed: None,
             body: &self.body,
             fabric: "muslin",
             gaps: None,

@@ -14,7 +14,8 @@ use crate::drape::{DrapeOptions, check_fall, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{MM, Vec2, Vec3};
-use crate::report::{ContactSeconds, Drift, FormReport, Measured, Report, Stage, measure};
+use crate::report::{ContactSeconds, Drift, FormReport, Measured, Report, Stage, UncrossedStraps, measure};
+use crate::sew::start::uncrossed;
 use crate::sew::{SewError, SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
@@ -218,10 +219,12 @@ impl<'a> Run<'a> {
     /// Measures the results so far.
     pub fn report(&self) -> Report {
         let gives: Vec<[f64; 2]> = self.job.fabrics.iter().map(|fabric| fabric.emt()).collect();
+        let uncrossed = uncrossed(&self.job.garment, &self.job.mesh);
         let mut report = measure(&Measured {
             garment: &self.job.garment,
             mesh: &self.job.mesh,
             weld: &self.class(),
+            uncrossed: uncrossed.as_ref().map(|of| UncrossedStraps { weld: &of.weld, closures: &of.closures }),
             body: &self.job.body,
             fabric: &self.job.fabric_names(),
             gaps: self.gaps.as_deref(),

@@ -17,12 +17,20 @@ use super::worn::worn_rows;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, EdgeParticles, Stitches};
-use crate::pattern::{Fastening, Garment, fastenings};
-use crate::sew::start::{Uncrossed, uncrossed};
+use crate::pattern::{Closure, Fastening, Garment, fastenings};
 use crate::verify::Welded;
 
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
+
+/// A garment whose straps cross as it is once they are uncrossed: its rims are those of any other garment.
+#[derive(Clone, Copy, Debug)]
+pub struct UncrossedStraps<'a> {
+    /// One label per particle, the same for particles that seams join.
+    pub weld: &'a [u32],
+    /// The closures.
+    pub closures: &'a [Closure],
+}
 
 /// A garment and where its particles were. All slices have one entry per particle of `mesh`. Positions are metres.
 #[derive(Clone, Debug)]
@@ -33,6 +41,8 @@ pub struct Measured<'a> {
     pub mesh: &'a ClothMesh,
     /// One label per particle, the same for particles that seams join.
     pub weld: &'a [u32],
+    /// The garment with its straps uncrossed, if they cross.
+    pub uncrossed: Option<UncrossedStraps<'a>>,
     /// The body.
     pub body: &'a Mannequin,
     /// The fabric's name.
@@ -284,14 +294,14 @@ struct InSpace<'a> {
 impl<'a> InSpace<'a> {
     fn new(run: &Measured, at: &'a [Vec3], closures: &Closures) -> Self {
         let welded = Welded::new(run.mesh, run.weld, at);
-        let Some(Uncrossed { weld, closures: exchanged }) = uncrossed(run.garment, run.mesh) else {
+        let Some(UncrossedStraps { weld, closures: exchanged }) = run.uncrossed else {
             let openings = openings(run.garment, run.mesh, &welded, &closures.closed);
             return Self { at, welded, uncrossed: None, openings };
         };
         let is_closed = |f: &Fastening| closures.closed.iter().any(|closed| closed.tack == f.tack);
-        let garment = Garment { closures: exchanged, ..run.garment.clone() };
+        let garment = Garment { closures: exchanged.to_vec(), ..run.garment.clone() };
         let closed: Vec<Fastening> = fastenings(&garment).into_iter().filter(is_closed).collect();
-        let uncrossed = Welded::new(run.mesh, &weld, at);
+        let uncrossed = Welded::new(run.mesh, weld, at);
         let openings = openings(&garment, run.mesh, &uncrossed, &closed);
         Self { at, welded, uncrossed: Some(uncrossed), openings }
     }

@@ -22,7 +22,8 @@ const BENDING: f64 = 40.0;
 /// Pressure moves a free node by this much per step, metres.
 const PUSH: f64 = 10e-3;
 /// Cloth no wider than this between two openings that the body leaves by, metres, is a strap, which is not inflated;
-/// cloth of twice this width is inflated fully. Inflated straps lay round the trunk as a belt, and not over the shoulders.
+/// cloth of twice this width is inflated fully. Inflated straps lay round the trunk as a belt, and not over the
+/// shoulders.
 const STRAP: f64 = 0.1;
 /// While it settles the weight of cloth that hangs from the shoulders moves a free node by this per step, metres. With
 /// more a slip dress is drawn into its body and takes four times as many steps to sew.

@@ -13,8 +13,8 @@ use crate::geometry::{DisjointSets, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Closure, Garment, Seam, Span};
 
-/// A strap that crosses another is led across over this share of its length: that of dungarees crosses below the shoulder
-/// blades.
+/// A strap that crosses another is led across over this share of its length: that of dungarees crosses below the
+/// shoulder blades.
 const SLANTED: f64 = 0.5;
 
 /// Two seams or closures, each the mirror image of the other, that exchange their partners for the start.
@@ -37,6 +37,9 @@ pub struct Uncrossed {
 
 /// A garment with its straps uncrossed. `None` where no straps cross.
 pub fn uncrossed(garment: &Garment, mesh: &ClothMesh) -> Option<Uncrossed> {
+    if Exchange::all(garment).is_empty() {
+        return None;
+    }
     let exchange = glued(garment, mesh, &[]).1?;
     let mut sets = DisjointSets::new(mesh.flat.len());
     for k in 0..mesh.seams.len() {
@@ -172,8 +175,8 @@ impl Mirror {
         Self((0..pieces.len()).map(|a| (0..pieces.len()).find(|b| is_half(a, *b))).collect())
     }
 
-    /// The edges of a chain, mirrored or as they are. An edge of a piece that is no half of a pair has no name here: its
-    /// mirror image is another edge of the same piece.
+    /// The edges of a chain, mirrored or as they are. An edge of a piece that is no half of a pair has no name here:
+    /// its mirror image is another edge of the same piece.
     fn chain<'g>(&self, garment: &'g Garment, chain: &[Span], is_mirrored: bool) -> BTreeSet<(usize, &'g str)> {
         let edge = |span: &Span| match self.0[span.edge.piece] {
             Some(half) => {

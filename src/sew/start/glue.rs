@@ -128,9 +128,9 @@ impl ToGlue<'_> {
         (out, is_whole)
     }
 
-    /// The laps that leave the surface a sphere with holes, all pairs that are welded with them, and whether the surface
-    /// is one with all laps. Laps that give it a handle are left out, and done up later. So are those at rims that are
-    /// zipped.
+    /// The laps that leave the surface a sphere with holes, all pairs that are welded with them, and whether the
+    /// surface is one with all laps. Laps that give it a handle are left out, and done up later. So are those at rims
+    /// that are zipped.
     fn flat_laps(
         &self,
         is_out: &[bool],

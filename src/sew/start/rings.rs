@@ -30,8 +30,8 @@ const STEEPEST: f64 = 0.3;
 const BESIDE: f64 = 0.9;
 /// Share of a rim that lies nearer than its shoulders.
 const NEARLY_ALL: f64 = 0.9;
-/// The ring of a neck lies below its shoulders by this share of what its rim does on the average. It is flat: lowered by
-/// all of that, it drew the straps of a slip dress down beside the shoulders.
+/// The ring of a neck lies below its shoulders by this share of what its rim does on the average. It is flat: lowered
+/// by all of that, it drew the straps of a slip dress down beside the shoulders.
 const LOWERED: f64 = 0.5;
 /// The opening that both arms pass through, of a halter, lies in front of the shoulders and behind the neck and the
 /// back by this, metres.
@@ -238,8 +238,9 @@ impl WornOpenings<'_> {
         [mean, far.get((far.len() as f64 * NEARLY_ALL) as usize).copied().unwrap_or(mean)]
     }
 
-    /// How far the ring of a neck's opening lies below its shoulders, metres: the share [`LOWERED`] of how much nearer its
-    /// middle is to the hem, and of how far it lies out on the shoulders if that is less, as that of a dress on straps.
+    /// How far the ring of a neck's opening lies below its shoulders, metres: the share [`LOWERED`] of how much nearer
+    /// its middle is to the hem, or of how far it lies out on the shoulders if that is less, as that of a dress on
+    /// straps.
     fn below_shoulders(&self, k: usize, axes: &Axes, neck: Vec3) -> f64 {
         let arm = [(Ends::LEFT_ARM, PartKind::LeftArm), (Ends::RIGHT_ARM, PartKind::RightArm)];
         let out = arm.into_iter().filter_map(|(ends, kind)| {
