@@ -21,7 +21,7 @@ const SWEEPS: usize = 30;
 const BENDING: f64 = 40.0;
 /// Pressure moves a free node by this much per step, metres.
 const PUSH: f64 = 10e-3;
-/// Cloth no wider than this between two openings that the body leaves by, metres, is a strap, which is not inflated;
+/// Cloth no wider than this between the openings of the head and of an arm, metres, is a strap, which is not inflated;
 /// cloth of twice this width is inflated fully. Inflated straps lay round the trunk as a belt, and not over the
 /// shoulders.
 const STRAP: f64 = 0.1;
@@ -288,7 +288,7 @@ impl<'a> Motion<'a> {
             t.iter().for_each(|n| out[*n as usize] += normal);
         }
         let share = |width: f64| ((width - STRAP) / STRAP).clamp(0.0, 1.0);
-        let round = self.area.iter().zip(&self.balloon.part.width);
+        let round = self.area.iter().zip(&self.balloon.part.over_shoulder);
         out.iter().zip(round).map(|(n, (area, width))| n * share(*width) / area.max(f64::MIN_POSITIVE)).collect()
     }
 

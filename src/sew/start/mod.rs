@@ -209,18 +209,18 @@ impl Dealt {
         let holes = rims.iter().filter(is_hole).map(Vec::as_slice).collect();
         let worn = &film.worn[number as usize];
         let left = || worn.ends.iter().zip(&worn.far).filter(|(ends, _)| !ends.is_empty());
-        let two_nearest = |n: usize| {
-            left()
-                .map(|(_, far)| far[n])
-                .fold([f64::INFINITY; 2], |[first, second], far| [first.min(far), second.min(far.max(first))])
+        let nearest = |n: usize, is_wanted: &dyn Fn(Ends) -> bool| {
+            left().filter(|(ends, _)| is_wanted(**ends)).map(|(_, far)| far[n]).fold(f64::INFINITY, f64::min)
         };
-        let far: Vec<[f64; 2]> = (0..self.glued.count).map(two_nearest).collect();
+        let is_arm = |ends: Ends| limb_of(ends).is_some_and(PartKind::is_arm);
+        let far = (0..self.glued.count).map(|n| nearest(n, &|_| true)).collect();
+        let over_shoulder = |n: usize| nearest(n, &is_arm) + nearest(n, &|ends| ends.has(Ends::HEAD) && !is_arm(ends));
+        let over_shoulder = (0..self.glued.count).map(over_shoulder).collect();
         let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
         let flat = |source: &u32| mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
         let (triangles, flat) = own.map(|(t, source)| (*t, flat(source))).unzip();
         let edges = film.edges.iter().filter(|l| is_own(l.ends[0])).copied().collect();
-        let width = far.iter().map(|[first, second]| first + second).collect();
-        GluedPart { holes, triangles, flat, edges, far: far.into_iter().map(|far| far[0]).collect(), width, mouths }
+        GluedPart { holes, triangles, flat, edges, far, over_shoulder, mouths }
     }
 
     /// The openings of every connected part.

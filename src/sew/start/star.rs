@@ -48,9 +48,9 @@ pub(super) struct GluedPart<'a> {
     pub(super) edges: Vec<Length>,
     /// Distance of every node of the whole garment from the nearest mouth on the cloth, metres.
     pub(super) far: Vec<f64>,
-    /// Width of the cloth from one mouth to another at every node of the whole garment, metres: how far the two nearest
-    /// are on the cloth.
-    pub(super) width: Vec<f64>,
+    /// Width of the cloth over a shoulder at every node of the whole garment, metres: how far the mouths of an arm and
+    /// of the head are from there. Infinite without either.
+    pub(super) over_shoulder: Vec<f64>,
 }
 
 /// A part of a garment as a star.
