@@ -40,7 +40,7 @@ pub use springs::SpringClass;
 pub use transfer::Transfer;
 
 use crate::geometry::Vec2;
-use crate::pattern::{EdgeId, LineKind};
+use crate::pattern::{Closure, EdgeId, LineKind};
 
 /// How pieces are meshed inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -120,6 +120,15 @@ impl ClothMesh {
         let far = |p: &usize| (self.flat[*p] - at).norm_squared();
         self.pieces.get(piece)?.particles.clone().min_by(|p, q| far(p).total_cmp(&far(q)))
     }
+}
+
+/// A garment whose straps cross as it is once they are uncrossed: its rims are those of any other garment.
+#[derive(Clone, Debug)]
+pub struct UncrossedStraps {
+    /// One label per particle, the same for particles that seams join.
+    pub weld: Vec<u32>,
+    /// The closures.
+    pub closures: Vec<Closure>,
 }
 
 /// Particles of an edge.

@@ -160,6 +160,12 @@ impl Piece {
         matches!(self.place, Some(Place::At { .. }))
     }
 
+    /// Whether it and another piece are the two halves of a pair.
+    pub fn is_twin(&self, other: &Self) -> bool {
+        let sides = self.side.zip(other.side);
+        self.drawn_as == other.drawn_as && sides.is_some_and(|(own, other)| own != other)
+    }
+
     /// Its layer among those of all garments that are worn over one another.
     pub fn level(&self) -> i32 {
         self.layer.saturating_add(self.beneath)

@@ -14,7 +14,7 @@ use crate::drape::{DrapeOptions, check_fall, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{MM, Vec2, Vec3};
-use crate::report::{ContactSeconds, Drift, FormReport, Measured, Report, Stage, UncrossedStraps, measure};
+use crate::report::{ContactSeconds, Drift, FormReport, Measured, Report, Stage, measure};
 use crate::sew::start::uncrossed;
 use crate::sew::{SewError, SewOptions, Stitching};
 
@@ -224,7 +224,7 @@ impl<'a> Run<'a> {
             garment: &self.job.garment,
             mesh: &self.job.mesh,
             weld: &self.class(),
-            uncrossed: uncrossed.as_ref().map(|of| UncrossedStraps { weld: &of.weld, closures: &of.closures }),
+            uncrossed: uncrossed.as_ref(),
             body: &self.job.body,
             fabric: &self.job.fabric_names(),
             gaps: self.gaps.as_deref(),

@@ -16,21 +16,12 @@ use super::tight::Tight;
 use super::worn::worn_rows;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
-use crate::mesh::{ClothMesh, EdgeParticles, Stitches};
-use crate::pattern::{Closure, Fastening, Garment, fastenings};
+use crate::mesh::{ClothMesh, EdgeParticles, Stitches, UncrossedStraps};
+use crate::pattern::{Fastening, Garment, fastenings};
 use crate::verify::Welded;
 
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
-
-/// A garment whose straps cross as it is once they are uncrossed: its rims are those of any other garment.
-#[derive(Clone, Copy, Debug)]
-pub struct UncrossedStraps<'a> {
-    /// One label per particle, the same for particles that seams join.
-    pub weld: &'a [u32],
-    /// The closures.
-    pub closures: &'a [Closure],
-}
 
 /// A garment and where its particles were. All slices have one entry per particle of `mesh`. Positions are metres.
 #[derive(Clone, Debug)]
@@ -42,7 +33,7 @@ pub struct Measured<'a> {
     /// One label per particle, the same for particles that seams join.
     pub weld: &'a [u32],
     /// The garment with its straps uncrossed, if they cross.
-    pub uncrossed: Option<UncrossedStraps<'a>>,
+    pub uncrossed: Option<&'a UncrossedStraps>,
     /// The body.
     pub body: &'a Mannequin,
     /// The fabric's name.
@@ -299,7 +290,7 @@ impl<'a> InSpace<'a> {
             return Self { at, welded, uncrossed: None, openings };
         };
         let is_closed = |f: &Fastening| closures.closed.iter().any(|closed| closed.tack == f.tack);
-        let garment = Garment { closures: exchanged.to_vec(), ..run.garment.clone() };
+        let garment = Garment { closures: exchanged.clone(), ..run.garment.clone() };
         let closed: Vec<Fastening> = fastenings(&garment).into_iter().filter(is_closed).collect();
         let uncrossed = Welded::new(run.mesh, weld, at);
         let openings = openings(&garment, run.mesh, &uncrossed, &closed);

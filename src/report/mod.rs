@@ -33,7 +33,7 @@ pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{CrossingsSeen, look};
 pub use fit::{Band, Bands, Finished, Fit, Girth, Pressure, WornLength, pressure};
 pub use form::{Apart, FormReport, LengthChange};
-pub use measure::{Measured, UncrossedStraps, measure};
+pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use page::{PageParts, page, page_parts};
 pub use rest::{AtRest, Restless, restless};

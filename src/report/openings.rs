@@ -108,7 +108,7 @@ fn areas(mesh: &ClothMesh, mut pieces: Vec<usize>) -> Vec<f64> {
 /// Whether of every pair of pieces with one of these edges both have one, and there is such a pair.
 fn is_symmetric(garment: &Garment, edges: &[EdgeId]) -> bool {
     let pieces = || edges.iter().filter_map(|edge| garment.pieces.get(edge.piece)).filter(|piece| piece.side.is_some());
-    let has_twin = |own: &Piece| pieces().any(|piece| piece.drawn_as == own.drawn_as && piece.side != own.side);
+    let has_twin = |own: &Piece| pieces().any(|piece| piece.is_twin(own));
     pieces().next().is_some() && pieces().all(has_twin)
 }
 

@@ -10,8 +10,8 @@ use super::cloth::Distances;
 use super::glue::{Glued, glued};
 use super::laps::matched;
 use crate::geometry::{DisjointSets, Vec2, Vec3};
-use crate::mesh::ClothMesh;
-use crate::pattern::{Closure, Garment, Seam, Span};
+use crate::mesh::{ClothMesh, UncrossedStraps};
+use crate::pattern::{Closure, Garment, Piece, Seam, Span};
 
 /// A strap that crosses another is led across over this share of its length: that of dungarees crosses below the
 /// shoulder blades.
@@ -26,30 +26,20 @@ pub(super) enum Exchange {
     Closures([Vec<[usize; 2]>; 2], usize),
 }
 
-/// A garment whose straps cross as it is once they are uncrossed: its openings are those of any other garment.
-#[derive(Clone, Debug)]
-pub struct Uncrossed {
-    /// A label for every particle, the same for all that seams join.
-    pub weld: Vec<u32>,
-    /// The closures.
-    pub closures: Vec<Closure>,
-}
-
 /// A garment with its straps uncrossed. `None` where no straps cross.
-pub fn uncrossed(garment: &Garment, mesh: &ClothMesh) -> Option<Uncrossed> {
+pub fn uncrossed(garment: &Garment, mesh: &ClothMesh) -> Option<UncrossedStraps> {
     if Exchange::all(garment).is_empty() {
         return None;
     }
     let exchange = glued(garment, mesh, &[]).1?;
     let mut sets = DisjointSets::new(mesh.flat.len());
     for k in 0..mesh.seams.len() {
-        let pairs = exchange.pairs(mesh, k).unwrap_or_else(|| mesh.seams[k].pairs.clone());
-        for [a, b] in pairs {
+        for [a, b] in exchange.pairs(mesh, k) {
             sets.join(a, b);
         }
     }
     let weld = (0..mesh.flat.len() as u32).map(|p| sets.root(p)).collect();
-    Some(Uncrossed { weld, closures: exchange.closures(garment) })
+    Some(UncrossedStraps { weld, closures: exchange.closures(garment) })
 }
 
 /// The end of a strap that starts beside its place.
@@ -73,17 +63,14 @@ impl Exchange {
         seams.chain(mirror.closures(garment)).collect()
     }
 
-    /// The pairs of particles that seam `k` joins, once exchanged; `None` where it keeps its own.
-    pub(super) fn pairs(&self, mesh: &ClothMesh, k: usize) -> Option<Vec<[u32; 2]>> {
-        let Self::Seams(seams, moving) = self else { return None };
-        let number = seams.iter().position(|seam| *seam == k)?;
-        let side = |number: usize, side: usize| -> Vec<u32> {
-            mesh.seams[seams[number]].pairs.iter().map(|pair| pair[side]).collect()
-        };
+    /// The pairs of particles that seam `k` joins, once exchanged.
+    pub(super) fn pairs(&self, mesh: &ClothMesh, k: usize) -> Vec<[u32; 2]> {
+        let Self::Seams(seams, moving) = self else { return mesh.seams[k].pairs.clone() };
+        let Some(number) = seams.iter().position(|seam| *seam == k) else { return mesh.seams[k].pairs.clone() };
         // The exchanged end is shifted across, not mirrored: its left side stays on the left.
-        let mut end = side(1 - number, *moving);
+        let mut end = side_of(mesh, seams[1 - number], *moving);
         end.reverse();
-        Some(matched(&side(number, 1 - moving), &end))
+        matched(&side_of(mesh, k, 1 - moving), &end)
     }
 
     /// The closures of the garment, once exchanged.
@@ -104,10 +91,11 @@ impl Exchange {
         [0, 1].map(|number| {
             let of = |number: usize, side: usize| -> Vec<u32> {
                 match self {
-                    Self::Seams(seams, _) => mesh.seams[seams[number]].pairs.iter().map(|pair| pair[side]).collect(),
+                    Self::Seams(seams, _) => side_of(mesh, seams[number], side),
                     Self::Closures(rows, _) => {
                         let end = |[k, i]: &[usize; 2]| garment.closures[*k].tacks[*i][side];
-                        rows[number].iter().map(end).map(|(piece, at)| nearest(mesh, piece, at)).collect()
+                        let nearest = |(piece, at): (usize, Vec2)| Some(mesh.nearest(piece, at)? as u32);
+                        rows[number].iter().map(end).filter_map(nearest).collect()
                     }
                 }
             };
@@ -150,16 +138,14 @@ impl CrossedEnd {
     }
 }
 
+/// Particles of one side (0 = `a`) of seam `k`, in order.
+fn side_of(mesh: &ClothMesh, k: usize, side: usize) -> Vec<u32> {
+    mesh.seams[k].pairs.iter().map(|pair| pair[side]).collect()
+}
+
 /// The nodes of particles of a surface.
 fn nodes(glued: &Glued, particles: &[u32]) -> Vec<u32> {
     particles.iter().filter_map(|p| glued.node_of[*p as usize]).collect()
-}
-
-/// The particle of a piece nearest to a flat point of it.
-fn nearest(mesh: &ClothMesh, piece: usize, at: Vec2) -> u32 {
-    let far = |p: &usize| (mesh.flat[*p] - at).norm_squared();
-    let own = mesh.pieces[piece].particles.clone();
-    own.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default() as u32
 }
 
 /// For every piece the other half of its pair.
@@ -168,11 +154,8 @@ struct Mirror(Vec<Option<usize>>);
 impl Mirror {
     fn new(garment: &Garment) -> Self {
         let pieces = &garment.pieces;
-        let is_half = |a: usize, b: usize| {
-            let sides = pieces[a].side.zip(pieces[b].side);
-            pieces[a].drawn_as == pieces[b].drawn_as && sides.is_some_and(|(a, b)| a != b)
-        };
-        Self((0..pieces.len()).map(|a| (0..pieces.len()).find(|b| is_half(a, *b))).collect())
+        let twin = |own: &Piece| pieces.iter().position(|piece| piece.is_twin(own));
+        Self(pieces.iter().map(twin).collect())
     }
 
     /// The edges of a chain, mirrored or as they are. An edge of a piece that is no half of a pair has no name here:

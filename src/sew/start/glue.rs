@@ -208,9 +208,8 @@ fn stitches<'a>(
     exchange: Option<&'a Exchange>,
 ) -> impl Iterator<Item = [u32; 2]> + 'a {
     let is_kept = |k: &usize| garment.seams[*k].kind != SeamKind::Pleat(PleatLayer::Top);
-    let pairs = move |k: usize| {
-        exchange.and_then(|exchange| exchange.pairs(mesh, k)).unwrap_or_else(|| mesh.seams[k].pairs.clone())
-    };
+    let pairs =
+        move |k: usize| exchange.map_or_else(|| mesh.seams[k].pairs.clone(), |exchange| exchange.pairs(mesh, k));
     (0..garment.seams.len()).filter(is_kept).flat_map(pairs)
 }
 

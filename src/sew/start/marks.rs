@@ -59,13 +59,7 @@ impl Mirror {
         let rims: Vec<Vec<Vec2>> = (0..mesh.pieces.len()).map(|piece| rim(mesh, piece)).collect();
         let mates = (0..rims.len()).map(|piece| {
             let own = &garment.pieces[piece];
-            let is_twin = |other: usize| {
-                let other = &garment.pieces[other];
-                other.drawn_as == own.drawn_as && other.side.is_some() && other.side != own.side
-            };
-            if own.side.is_some()
-                && let Some(twin) = (0..rims.len()).find(|&other| is_twin(other))
-            {
+            if let Some(twin) = (0..rims.len()).find(|&other| garment.pieces[other].is_twin(own)) {
                 return vec![twin];
             }
             let may_be = |&other: &usize| {

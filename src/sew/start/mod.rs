@@ -48,7 +48,7 @@ mod zip;
 use std::collections::BTreeSet;
 
 pub use cloth::Distances;
-pub use crossing::{CrossedEnd, Uncrossed, uncrossed};
+pub use crossing::{CrossedEnd, uncrossed};
 pub use deal::{CLEAR, Dealing, deal, guess};
 pub use deal_error::{DealError, Doubt, edges};
 pub use ends::{End, Ends};
