@@ -9,7 +9,8 @@ const ROUNDS: usize = 100;
 
 /// Moves cloth that a thin part of the body passes through (the rim of an ear, the web of a thumb), with its particles
 /// on both sides of it, out over the end of that part. No contact does: each particle is outside. No spring pulls
-/// meanwhile. What cannot be led off is left as it was least cut; cloth that would come to pass through itself stays.
+/// meanwhile. Cloth that cannot be led off is left as it was least cut; cloth that would come to pass through itself
+/// stays.
 ///
 /// # Errors
 /// As [`World::displaced`].

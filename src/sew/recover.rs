@@ -19,7 +19,7 @@ const SHARE: f64 = 0.25;
 /// A piece is moved by so much at a time, at most so often, metres.
 const STEP: f64 = 4e-3;
 const STEPS: usize = 25;
-/// What lies less deep, metres, may come out anywhere: sleeves touch the trunk under the arm, which is no hollow.
+/// Cloth that lies less deep, metres, may come out anywhere: sleeves touch the trunk under the arm, which is no hollow.
 const SHALLOW: f64 = 4e-3;
 /// A way out of the body ends in a hollow if it meets the body again within this, metres: a mouth is no wider.
 const HOLLOW: f64 = 0.08;

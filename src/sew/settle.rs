@@ -26,7 +26,7 @@ const SETTLE: usize = 100;
 const STILL: f64 = 0.2e-3;
 /// Cloth that the body still cuts comes out in a few steps more, or not in many.
 const COME_OUT: usize = 20;
-/// What is led off the body then is drawn out, and pulled true in so many steps.
+/// Cloth that is led off the body then is drawn out, and pulled true in so many steps.
 const LED_OFF: usize = 3;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;

@@ -34,8 +34,8 @@ pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
     Ok(rounds)
 }
 
-/// Moves cloth by a little in every round, at most so many, until a `look` counts nothing that is wrong. What is still
-/// wrong then is left where that was the least. Returns the rounds that took.
+/// Moves cloth by a little in every round, at most so many, until a `look` counts nothing that is wrong. If something
+/// still is, the cloth is left where that was the least. Returns the rounds that took.
 pub(super) fn lead<T>(
     world: &mut World,
     most: usize,

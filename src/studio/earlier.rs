@@ -47,7 +47,7 @@ impl Kept {
     }
 }
 
-/// What decides how a garment is put on: another body or another place needs a start of its own.
+/// The words of a file that decide how a garment is put on: another body or another place needs a start of its own.
 fn put_on(said: &GarmentFile) -> String {
     let piece = |own: &crate::pattern::PieceFile| {
         let place = own.place.as_ref().map(|place| &place.value);

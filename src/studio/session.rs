@@ -23,7 +23,7 @@ pub const SPACINGS: [f64; 6] = [8.0, 10.0, 12.0, 15.0, 20.0, 25.0];
 /// Longest time that a check of the file may take: many times that of the largest garment on a busy machine.
 const LONGEST_CHECK: Duration = Duration::from_secs(60);
 
-/// What the page asks for and the file does not say.
+/// Wishes of the page that the file does not say.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Wanted {
     /// Spacing of the mesh, mm.
@@ -164,7 +164,7 @@ impl Session {
         known.unwrap_or_else(PoisonError::into_inner).0.is_sound == Some(true)
     }
 
-    /// What is wanted of the file as it was read last.
+    /// The page's wishes, as far as the file that was read last allows them.
     pub(super) fn wanted(&self) -> Wanted {
         let (text, wanted) = {
             let inner = self.lock();

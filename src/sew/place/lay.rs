@@ -15,8 +15,8 @@ use crate::pattern::Garment;
 /// another way: such a piece has a place in a row of its own.
 const MISFIT: f64 = 0.02;
 
-/// What reaches further than this beyond the rims of what it is sewn to, metres, does not lie on it: a cape over the
-/// shoulders of a bodice goes round the arms.
+/// A piece that reaches further than this beyond the rims of the cloth it is sewn to, metres, does not lie on it: a
+/// cape over the shoulders of a bodice goes round the arms.
 const BEYOND: f64 = 0.05;
 
 /// A point no further beyond a rim than this, metres, counts as within it.

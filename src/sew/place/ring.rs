@@ -135,8 +135,8 @@ impl Ring<'_> {
         covered(stretches)
     }
 
-    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and
-    /// is open at its sides goes round from where they would be.
+    /// The first level at which the row goes all the way round: under the armholes. A garment that hangs from the
+    /// shoulders and is open at its sides goes round from where armholes would be.
     pub(super) fn first_closed(&self) -> usize {
         let open = || {
             let arms = if self.row.hangs { ARMHOLE } else { 0.0 };

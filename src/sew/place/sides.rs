@@ -21,7 +21,7 @@ const SIDEWAYS: f64 = 0.34;
 const SLANTED: f64 = 0.5;
 
 /// Refuses upright seams that join the same sides of two pieces round one part, each said to be at its front or its
-/// back. What says neither (a gusset), lies in a slit or on another piece may be sewn any way round.
+/// back. A piece that says neither (a gusset), or lies in a slit or on another piece, may be sewn any way round.
 pub(super) fn check(
     garment: &Garment,
     mesh: &ClothMesh,

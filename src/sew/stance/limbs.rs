@@ -6,8 +6,8 @@ use crate::contact::Skin;
 use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Junction, JunctionSide, Mannequin, PartKind};
 
-/// What is nearer to each other than this from back to front, metres, has to have room sideways; what is further from
-/// each other than twice this has it there: cloth passes between.
+/// Limbs that are nearer to each other than this from back to front, metres, need room sideways. Those further from
+/// each other than twice this have it there: cloth passes between.
 const SLICE: f64 = 0.02;
 
 /// Of every arm and leg of a body the skin round it: a corner of the triangle nearest to each of its sections.

@@ -53,8 +53,8 @@ fn room(down: f64) -> f64 {
     (OPENING * down).min(ROOM + STRIDE * down)
 }
 
-/// By how much two limbs with these gaps (metres), level by level, are moved apart; none if they have room. What is
-/// further down goes at least as far.
+/// By how much two limbs with these gaps (metres), level by level, are moved apart; none if they have room. Each level
+/// goes at least as far as the one above it.
 fn opening(gaps: &[Option<f64>]) -> Option<Vec<f64>> {
     let down = |k: usize| k as f64 * LEVEL;
     let narrow =

@@ -36,8 +36,8 @@ impl Ply {
     }
 }
 
-/// Moves plies apart that pass through one another, the higher outwards and the lower inwards. What still passes
-/// through one another after [`ROUNDS`] is left where that was the least.
+/// Moves plies apart that pass through one another, the higher outwards and the lower inwards. If some still pass
+/// through one another after [`ROUNDS`], they are left where that was the least.
 pub(super) fn clear(mesh: &ClothMesh, plies: &[Ply], x: &mut [Vec3]) {
     move_clear(&mut detector(mesh), plies, x);
 }

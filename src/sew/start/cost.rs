@@ -1,4 +1,4 @@
-//! What a dealing costs: girths and distances unlike those of garments that are worn so, rare kinds of garments, and
+//! The cost of a dealing: girths and distances unlike those of garments that are worn so, rare kinds of garments, and
 //! broken mirror symmetry.
 
 use super::ends::Ends;

@@ -102,8 +102,8 @@ impl ClosureJoint {
     }
 }
 
-/// What closures join, by the lap that it holds: rows of one closure, and those of others between the same two pieces
-/// that the same turn and shift brings together. The first closure says which piece lies over.
+/// The joints of closures by the lap that they hold: rows of one closure, and those of others between the same two
+/// pieces that the same turn and shift brings together. The first closure says which piece lies over.
 fn of_one_lap(garment: &Garment, all: &[Fastening]) -> Vec<Vec<ClosureJoint>> {
     let mut laps: Vec<Vec<ClosureJoint>> = Vec::new();
     for row in all.chunk_by(|a, b| a.row == b.row) {
@@ -159,19 +159,16 @@ impl RimPair {
         let whole = [0, 1].map(|side| rim(garment, mesh, edges[side]));
         let lengths = [0, 1].map(|side| whole[side].last().map_or(0.0, |r| r.0));
         let mut closed = [0, 1].map(|side| closed(&spots[side], lengths[side]));
-        let mut rims = [0, 1].map(|side| between(&whole[side], closed[side]));
-        let mut wide = None;
-        if tacks.len() == 1 {
-            // The end of a strap closes no more of a wide edge than its own width.
-            let widths = closed.map(|[from, to]| to - from);
-            let wider = usize::from(widths[1] > widths[0]);
-            if widths[1 - wider] > 0.0 && widths[wider] > widths[1 - wider] {
-                closed[wider] = about(spots[wider][0], widths[1 - wider], lengths[wider]);
-                rims[wider] = nearest_between(&whole[wider], closed[wider]);
-                wide = Some(wider);
-            }
+        // The end of a strap closes no more of a wide edge than its own width.
+        let wide = wider(closed).filter(|_| tacks.len() == 1);
+        if let Some((side, width)) = wide {
+            closed[side] = about(spots[side][0], width, lengths[side]);
         }
-        let mut rims = rims.map(|rim| rim.into_iter().map(|r| r.1).collect::<Vec<u32>>());
+        let is_wide = |side: usize| wide.is_some_and(|(wide, _)| wide == side);
+        let mut rims = [0, 1].map(|side| {
+            let within = if is_wide(side) { nearest_between } else { between };
+            within(&whole[side], closed[side]).into_iter().map(|r| r.1).collect::<Vec<u32>>()
+        });
         // The edge of the lower piece is walked as the upper one's.
         if !runs_with(&spots) {
             rims[0].reverse();
@@ -180,9 +177,9 @@ impl RimPair {
         let mut ends: Vec<[Vec2; 2]> = tacks.iter().map(|tack| [tack[1].1, tack[0].1]).collect();
         if let [one] = ends[..] {
             // One point says where, the rims which way round.
-            let out = [1, 0].map(|side| match wide {
-                Some(wide) if wide == side => outward(mesh, edges[side].piece, &rims[side], tacks[0][side].1),
-                _ => out_of(mesh, edges[side].piece, &rims[side]),
+            let out = [1, 0].map(|side| {
+                let (piece, rim) = (edges[side].piece, &rims[side]);
+                if is_wide(side) { outward(mesh, piece, rim, tacks[0][side].1) } else { out_of(mesh, piece, rim) }
             });
             ends.push([one[0] + out[0]? * mesh.spacing, one[1] - out[1]? * mesh.spacing]);
         }
@@ -400,6 +397,15 @@ fn closed(spots: &[f64], length: f64) -> [f64; 2] {
     let pitch = (high - low) / (spots.len().max(2) - 1) as f64;
     let beyond = if length <= BAND { BAND } else { BEYOND.max(1.5 * pitch) };
     [if low <= beyond { 0.0 } else { low }, if length - high <= beyond { length } else { high }]
+}
+
+/// The side whose closed stretch is wider than the other one's, and the width of that, metres. `None` if the other has
+/// none, or both are as wide.
+fn wider(closed: [[f64; 2]; 2]) -> Option<(usize, f64)> {
+    let widths = closed.map(|[from, to]| to - from);
+    let side = usize::from(widths[1] > widths[0]);
+    let other = widths[1 - side];
+    (other > 0.0 && widths[side] > other).then_some((side, other))
 }
 
 /// The stretch of an edge of so many metres that is `width` wide and has its middle nearest to a spot.

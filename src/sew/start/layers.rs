@@ -7,8 +7,8 @@ use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, patches};
 
 /// The pieces that lie on others, rising. Where more than two sheets meet along a seam, or two that go the same way
-/// from it, the one furthest from the shell lies on the others; of as far ones the smallest. What is sewn to it within
-/// its layer lies with it.
+/// from it, the one furthest from the shell lies on the others; of as far ones the smallest. Pieces that are sewn to
+/// it within its layer lie with it.
 ///
 /// `sets` are the particles as they are welded; `is_out` those that are not part of the surface.
 pub(super) fn left_out(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Vec<usize> {

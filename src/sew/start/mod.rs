@@ -152,7 +152,7 @@ impl Dealt {
         Self { glued, openings, dealing, doubt }
     }
 
-    /// What `then` makes of the garment on its film. `None` where a part of it has no opening that anything passes
+    /// The result of `then` for the garment on its film. `None` where a part of it has no opening that anything passes
     /// through.
     fn on_film<T>(
         &self,

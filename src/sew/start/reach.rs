@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 
 /// The cloth starts so far beyond the ways within it, metres: an edge of the start mesh.
 const CLEAR: f64 = 0.025;
-/// What lies outside draws the cloth in to this share of its distance at most in one round.
+/// A way outside draws the cloth in to this share of its distance at most in one round.
 const DRAWN_IN: f64 = 0.25;
 /// The first points of a way outside lie in the opening itself, with its rim beside them. So many are left out.
 const AT_RIM: usize = 3;

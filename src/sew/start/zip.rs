@@ -64,8 +64,8 @@ fn is_high(wearing: &Wearing, piece: usize) -> bool {
     marks::words(wearing.garment, piece).any(marks::is_high)
 }
 
-/// What of a rim from the middle of the top to that of the bottom is front: from the corner at the top to the one at
-/// the bottom, or where the neck and the hem would end. `half` are the sides of the rim between them.
+/// The front of a rim that goes from the middle of the top to that of the bottom: from the corner at the top to the one
+/// at the bottom, or where the neck and the hem would end. `half` are the sides of the rim between them.
 fn stretch(wearing: &Wearing, half: &[[u32; 2]], top: f64, bottom: f64) -> Vec<u32> {
     let mut whole = 0.0;
     let mut at = Vec::with_capacity(half.len());

@@ -97,7 +97,7 @@ pub(in crate::studio) fn told(own: &AlterationFile) -> String {
     }
 }
 
-/// What happens at positions along an edge.
+/// Changes at positions along an edge, in the words of the file.
 fn stations<T: Copy>(at: &[StationFile<T>], words: impl Fn(T) -> String) -> String {
     let each = at.iter().map(|(position, by)| format!("{} at {}", words(by.value), quantity(position)));
     each.collect::<Vec<_>>().join(", ")
