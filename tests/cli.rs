@@ -1202,22 +1202,44 @@ fn a_reader_that_goes_away_is_no_error() {
     assert_eq!(child.wait().expect("ended").code(), Some(0));
 }
 
+/// Makes the skirt on a fine mesh and interrupts it as soon as `ready` is so.
 #[cfg(unix)]
-#[test]
-fn an_interrupt_ends_with_130_and_leaves_nothing() {
-    let room = Room::new();
+fn interrupted(room: &Room, ready: impl Fn() -> bool) {
     let mut child = room
         .command(&["make", "skirt.yaml", "--spacing", "4", "-o", "out"])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .expect("started");
-    std::thread::sleep(std::time::Duration::from_millis(500));
+    while !ready() && child.try_wait().expect("a child").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.expect("a kill command").success());
     assert_eq!(child.wait().expect("ended").code(), Some(130));
-    assert!(room.names("out").is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_with_130_and_leaves_nothing() {
+    let room = Room::new();
+    // Once before anything is shown, once when the first look is.
+    let begun = std::time::Instant::now();
+    interrupted(&room, || begun.elapsed().as_millis() > 200);
     assert_eq!(room.names("."), ["skirt.yaml"]);
+    interrupted(&room, || room.names("out").contains(&"garment.png".to_owned()));
+    assert_eq!(room.names("."), ["skirt.yaml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_earlier_results() {
+    let room = Room::new();
+    room.make("skirt.yaml", &[]).ends(0);
+    let (names, earlier) = (room.names("out"), room.bytes("out/garment.png"));
+    interrupted(&room, || room.bytes("out/garment.png") != earlier);
+    assert_eq!(room.names("out"), names);
+    assert!(room.bytes("out/garment.png") == earlier, "the picture is not the earlier one");
 }
 
 /// Every garment that is shipped passes its check.

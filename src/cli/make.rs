@@ -8,7 +8,7 @@ use super::exit::{CliError, Exit};
 use super::garment_args::{GarmentArgs, OnwardArgs};
 use super::picture_args::pixels;
 use crate::flatten;
-use crate::io::files::{check_writable, write_all};
+use crate::io::files::{Preview, check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
     FormAsked, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, GARMENT_YAML, Glimpse, Job, NewPattern, Overrides, PATTERN_SVG,
@@ -163,7 +163,8 @@ pub(super) fn carry_out(plan: &MakePlan, console: &Console) -> Result<Exit, CliE
     let worn_text = worn[0].1.text().to_owned();
     let job = Job::dressed(worn, &plan.overrides)?;
     job.notes.iter().for_each(|note| console.note(note));
-    let early = |glimpse: &Glimpse| show_early(&job, glimpse, plan, &folder, &borrowed(&inputs));
+    let picture = Preview::new(folder.join(GARMENT_PNG));
+    let early = |glimpse: &Glimpse| show_early(&job, glimpse, plan, &picture, &borrowed(&inputs));
     let mut run = plan.goal.begin(&job)?;
     if console.watched() {
         run = run.watched_by(&early);
@@ -217,11 +218,11 @@ fn new_pattern(
     Ok(found)
 }
 
-/// Writes the picture of a coarser level, which the picture of the garment replaces when that is done. It is written
+/// Shows the picture of a coarser level, which the picture of the garment replaces when that is done. It is written
 /// with all other files again: that it cannot be written is told then.
-fn show_early(job: &Job, glimpse: &Glimpse, plan: &MakePlan, folder: &Path, inputs: &[&Path]) {
-    if let Ok(picture) = job.draw_glimpse(glimpse, &plan.drawing.layout) {
-        let _ = write(vec![(GARMENT_PNG, picture)], folder, inputs);
+fn show_early(job: &Job, glimpse: &Glimpse, plan: &MakePlan, picture: &Preview, inputs: &[&Path]) {
+    if let Ok(png) = job.draw_glimpse(glimpse, &plan.drawing.layout) {
+        let _ = picture.show(&png, inputs);
     }
 }
 

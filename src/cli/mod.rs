@@ -45,7 +45,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::batch::become_worker;
-use crate::io::files::remove_on_interrupt;
+use crate::io::files::undo_on_interrupt;
 use args::{Args, Command};
 use console::Console;
 use exit::{CliError, Exit};
@@ -69,7 +69,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, itself: &[OsStri
         }
     };
     let console = Console::new(args.global.quiet, args.global.json, args.global.worker.is_some());
-    let done = remove_on_interrupt()
+    let done = undo_on_interrupt()
         .map_err(CliError::from)
         .and_then(|()| args.global.worker.map_or(Ok(()), |memory| Ok(become_worker(memory)?)))
         .and_then(|()| with_threads(args.global.threads, || run(&args, itself, &console)))

@@ -1,15 +1,23 @@
 //! Writing results: a set of files whole or not at all, never over an input.
 //!
 //! Every file is written beside its target under a temporary name and renamed when all of them are complete. When the
-//! program is interrupted, the handler that [`remove_on_interrupt`] sets up removes the files that are still temporary.
+//! program is interrupted, the handler that [`undo_on_interrupt`] sets up removes the files that are still temporary and
+//! puts back what a [`Preview`] stands in for.
+
+mod error;
+mod preview;
+mod refuse;
+mod temporary;
 
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::NamedTempFile;
+pub use self::error::WriteError;
+pub use self::preview::Preview;
+use self::refuse::refuse;
+pub use self::temporary::Private;
+use self::temporary::{Pending, registry};
 
 /// Exit code of a program stopped by Ctrl-C (128 + SIGINT).
 const INTERRUPTED: i32 = 130;
@@ -17,55 +25,6 @@ const INTERRUPTED: i32 = 130;
 /// Whether the first Ctrl-C only asks to stop ([`stop_on_interrupt`]), and whether it has come.
 static ASKS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
-
-/// Temporary files that exist now. Global, as the flags above: an interrupt handler has no other way to know.
-/// It is locked from before a temporary file appears until after it is registered, and while files are renamed, so
-/// the handler sees none unregistered and no set half renamed.
-static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-/// Why files could not be written. Paths are as the user gave them.
-#[derive(Debug, thiserror::Error)]
-pub enum WriteError {
-    /// A result would replace a file the program reads.
-    #[error("will not write {}: it is an input; choose another folder with -o", .0.display())]
-    IsInput(PathBuf),
-    /// A target exists and is a folder.
-    #[error("cannot write {}: it is a folder", .0.display())]
-    IsFolder(PathBuf),
-    /// A target exists and is a device or a pipe.
-    #[error("cannot write {}: it is no ordinary file; give another name with -o", .0.display())]
-    NotFile(PathBuf),
-    /// A target exists and is write-protected.
-    #[error("cannot write {}: it is write-protected; give another name with -o, or lift the protection", .0.display())]
-    Protected(PathBuf),
-    /// The folder to write into is a file.
-    #[error("cannot write {}: {} is a file, not a folder", target.display(), path.display())]
-    NotFolder {
-        /// The file to write.
-        target: PathBuf,
-        /// The file in its way.
-        path: PathBuf,
-    },
-    /// The output folder cannot be made.
-    #[error("cannot make the folder {}: {source}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
-    /// A file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
-    /// The interrupt handler cannot be set up.
-    #[error("cannot watch for Ctrl-C: {0}")]
-    Handler(#[from] ctrlc::Error),
-}
 
 /// Writes every (path, contents) pair, making folders as needed, or writes no file.
 ///
@@ -92,7 +51,8 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     }
     let mut registry = registry();
     for (pending, (path, _)) in temporary.into_iter().zip(files) {
-        pending.rename(path, &mut registry)?;
+        let real = pending.rename(path, &mut registry)?;
+        registry.keep(&real);
     }
     Ok(())
 }
@@ -121,12 +81,12 @@ pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteEr
     Ok(())
 }
 
-/// Removes temporary files when the program is interrupted and ends it with exit code 130. Called once, by the command
-/// line.
+/// Removes temporary files and previews when the program is interrupted and ends it with exit code 130. Called once, by
+/// the command line.
 ///
 /// # Errors
 /// [`WriteError::Handler`] when there is a handler already or the system refuses.
-pub fn remove_on_interrupt() -> Result<(), WriteError> {
+pub fn undo_on_interrupt() -> Result<(), WriteError> {
     ctrlc::set_handler(|| {
         if ASKS.load(Ordering::SeqCst) && !ASKED.swap(true, Ordering::SeqCst) {
             return;
@@ -143,13 +103,11 @@ pub fn stop_on_interrupt() -> impl Fn() -> bool + Sync {
     || ASKED.load(Ordering::SeqCst)
 }
 
-/// Removes temporary files and ends the program with exit code 130.
+/// Removes temporary files and previews and ends the program with exit code 130.
 pub fn abandon() -> ! {
     // The lock is never given back: no file may appear after the sweep.
-    for path in registry().iter() {
-        // Nobody is left to tell if this fails.
-        let _ = fs::remove_file(path);
-    }
+    let mut registry = registry();
+    registry.undo();
     std::process::exit(INTERRUPTED);
 }
 
@@ -173,135 +131,6 @@ fn whole(path: &Path) -> Option<PathBuf> {
         }
     }
     Some(whole)
-}
-
-/// A thread that panicked while it held the lock left a list that is still right.
-fn registry() -> MutexGuard<'static, Vec<PathBuf>> {
-    PENDING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn refuse(path: &Path, inputs: &[&Path]) -> Result<(), WriteError> {
-    let Ok(real) = path.canonicalize() else { return Ok(()) };
-    if inputs.iter().any(|input| input.canonicalize().is_ok_and(|i| i == real)) {
-        return Err(WriteError::IsInput(path.to_owned()));
-    }
-    let Ok(is) = fs::metadata(&real) else { return Ok(()) };
-    match path.to_owned() {
-        path if is.is_dir() => Err(WriteError::IsFolder(path)),
-        path if !is.is_file() => Err(WriteError::NotFile(path)),
-        path if is.permissions().readonly() => Err(WriteError::Protected(path)),
-        _ => Ok(()),
-    }
-}
-
-/// The file a path leads to, or the path where there is none yet.
-fn behind_links(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_owned())
-}
-
-/// A complete file under a temporary name; removed when dropped.
-struct Pending {
-    /// `None` only once renamed.
-    file: Option<NamedTempFile>,
-    /// Where it goes: the file behind the target, where that is a link.
-    real: PathBuf,
-}
-
-impl Pending {
-    fn create(target: &Path, contents: &[u8]) -> Result<Self, WriteError> {
-        let real = behind_links(target);
-        let folder = match real.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        fs::create_dir_all(folder).map_err(|source| WriteError::Folder { path: folder.to_owned(), source })?;
-        let failed = |source| WriteError::File { path: target.to_owned(), source };
-        let file = {
-            let mut registry = registry();
-            let file = builder().tempfile_in(folder).map_err(failed)?;
-            registry.push(file.path().to_owned());
-            file
-        };
-        let old = fs::metadata(&real);
-        let mut pending = Self { file: Some(file), real };
-        if let Some(file) = &mut pending.file {
-            file.write_all(contents).and_then(|()| file.flush()).map_err(failed)?;
-            if let Ok(old) = old {
-                file.as_file().set_permissions(old.permissions()).map_err(failed)?;
-            }
-        }
-        Ok(pending)
-    }
-
-    fn rename(mut self, target: &Path, registry: &mut Vec<PathBuf>) -> Result<(), WriteError> {
-        let Some(file) = self.file.take() else { return Ok(()) };
-        registry.retain(|path| path != file.path());
-        match file.persist(&self.real) {
-            Ok(_) => Ok(()),
-            // Dropping the error removes the temporary file.
-            Err(e) => Err(WriteError::File { path: target.to_owned(), source: e.error }),
-        }
-    }
-}
-
-impl Drop for Pending {
-    fn drop(&mut self) {
-        if let Some(file) = self.file.take() {
-            let path = file.path().to_owned();
-            drop(file);
-            // `try_lock`: when a rename fails, `write_all` drops the rest while it holds the lock itself. The entries
-            // that then stay name files that no longer exist.
-            if let Ok(mut registry) = PENDING.try_lock() {
-                registry.retain(|p| *p != path);
-            }
-        }
-    }
-}
-
-/// A temporary file that only its owner may read. It is removed when this is dropped, and when the program is
-/// interrupted.
-pub struct Private(Option<NamedTempFile>);
-
-impl Private {
-    /// Writes such a file, whose name ends with `ending`.
-    ///
-    /// # Errors
-    /// [`WriteError::File`] when the system's folder for temporary files cannot be written.
-    pub fn new(ending: &str, contents: &[u8]) -> Result<Self, WriteError> {
-        let failed = |source| WriteError::File { path: std::env::temp_dir(), source };
-        let mut registry = registry();
-        let made = tempfile::Builder::new().prefix("toile-").suffix(ending).tempfile();
-        let mut file = made.map_err(failed)?;
-        registry.push(file.path().to_owned());
-        drop(registry);
-        file.write_all(contents).and_then(|()| file.flush()).map_err(failed)?;
-        Ok(Self(Some(file)))
-    }
-
-    /// Its path.
-    pub fn path(&self) -> &Path {
-        self.0.as_ref().map_or(Path::new(""), |file| file.path())
-    }
-}
-
-impl Drop for Private {
-    fn drop(&mut self) {
-        if let Some(file) = self.0.take() {
-            registry().retain(|path| path != file.path());
-        }
-    }
-}
-
-/// Temporary files would be private; results get the permissions any new file gets.
-fn builder() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".toile-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder
 }
 
 #[cfg(test)]
@@ -418,7 +247,7 @@ mod tests {
     #[test]
     fn interrupted_child() {
         let Some(folder) = std::env::var_os(CHILD_FOLDER).map(PathBuf::from) else { return };
-        remove_on_interrupt().expect("a handler");
+        undo_on_interrupt().expect("a handler");
         let _pending = Pending::create(&folder.join("half.txt"), b"half").expect("written");
         std::thread::sleep(std::time::Duration::from_secs(20));
     }
