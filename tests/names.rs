@@ -170,8 +170,8 @@ fn start_alike(file: &Path) -> bool {
     let shown = file.display();
     assert!(numbers(&jobs[0].mesh) == numbers(&jobs[1].mesh), "{shown}: the meshes differ");
     let [own, twin] = jobs.each_ref().map(|job| start(&job.garment, &job.mesh, &job.body, &job.collider));
-    assert!(own == twin, "{shown}: the starts differ");
-    own.is_some()
+    assert!(own.as_ref().ok() == twin.as_ref().ok(), "{shown}: the starts differ");
+    own.is_ok()
 }
 
 #[test]

@@ -175,7 +175,7 @@ fn a_skirt_is_worn_over_a_skirt() {
 #[test]
 fn a_sheet_at_rest_lies_still() {
     let job = scene("sheet_on_cone.yaml", 40.0);
-    let placed = place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("placed");
+    let placed = place::positioned(&job.garment, &job.mesh).expect("placed");
     let sewn = sew(&job.cut(), &job.collider, placed, &SewOptions::default(), &mut |_| {}).expect("nothing to sew");
     let (stitching, options) = (&sewn.stitching, DrapeOptions::default());
     let draped = drape(&job.cut(), &job.collider, stitching, sewn.nodes, &options, &mut |_| {}).expect("finite");
@@ -203,7 +203,7 @@ fn a_sheet_at_rest_lies_still() {
 #[test]
 fn tests_of_rest_take_no_more_than_twice_the_steps_allowed() {
     let job = scene("sheet_on_sphere.yaml", 40.0);
-    let placed = place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("placed");
+    let placed = place::positioned(&job.garment, &job.mesh).expect("placed");
     let sewn = sew(&job.cut(), &job.collider, placed, &SewOptions::default(), &mut |_| {}).expect("nothing to sew");
     for max_steps in [0, 1, 4] {
         let options = DrapeOptions { max_steps, until: Until::Rest, near: false };

@@ -119,13 +119,6 @@ pub struct Garment {
     pub tests: Vec<Test>,
 }
 
-impl Garment {
-    /// Whether the file says at which position every piece starts.
-    pub fn is_positioned(&self) -> bool {
-        self.pieces.iter().all(Piece::has_position)
-    }
-}
-
 /// One piece of cloth.
 #[derive(Clone, Debug)]
 pub struct Piece {

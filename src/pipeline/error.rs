@@ -13,12 +13,10 @@ use crate::io::body::BodyError;
 use crate::io::garment::{EncodeError, Refused};
 use crate::io::obj_read::ObjError;
 use crate::io::svg_write::PatternSvgError;
-use crate::mannequin::Mannequin;
 use crate::mesh::MeshError;
 use crate::picture::PictureError;
 use crate::sew::SewError;
 use crate::sew::place::PlaceError;
-use crate::verify::Through;
 
 /// Why there is no result, or only a part of one.
 #[derive(Debug, thiserror::Error)]
@@ -65,14 +63,12 @@ pub enum PipelineError {
         source: Box<MeshError>,
     },
     /// A piece has no place on this body.
-    #[error("{}: {source}{advice}", file.display())]
+    #[error("{}: {source}", file.display())]
     Place {
         /// The garment file.
         file: PathBuf,
         /// The piece, and the reason.
         source: Box<PlaceError>,
-        /// The meaning of a position and the parts of the body, if the message needs it.
-        advice: String,
     },
     /// A surface cannot be cut along a drawn line.
     #[error("{}: line {line}: {why}", file.display())]
@@ -227,26 +223,12 @@ impl PipelineError {
     }
 
     /// Sewing's error: a piece that no place suits is a matter of the garment file.
-    pub(super) fn sewing(file: &std::path::Path, body: &Mannequin, error: SewError) -> Self {
+    pub(super) fn sewing(file: &std::path::Path, error: SewError) -> Self {
         match error {
-            SewError::Place(source) => {
-                let absent = matches!(source, PlaceError::NoPart { .. });
-                Self::Place {
-                    file: file.to_owned(),
-                    source: Box::new(source),
-                    advice: if absent { parts(body) } else { String::new() },
-                }
-            }
+            SewError::Place(source) => Self::Place { file: file.to_owned(), source: Box::new(source) },
             other => Self::Sew(other),
         }
     }
-}
-
-/// Explains a position, and lists the parts of this body that a piece could go round.
-fn parts(body: &Mannequin) -> String {
-    let names: Vec<&str> = body.parts.iter().map(|part| Through::Part(part.kind).name()).collect();
-    let known = if names.is_empty() { "nothing to go round".to_owned() } else { names.join(", ") };
-    format!(" (x to the wearer's left, y up, z forward); it has {known}")
 }
 
 /// Whether flattening failed on a surface that it should have managed.

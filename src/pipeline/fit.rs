@@ -5,9 +5,10 @@ use crate::contact::Collider;
 use crate::geometry::{Vec2, Vec3, box_of, range_of};
 use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
-use crate::mesh::ClothMesh;
+use crate::mesh::{self, ClothMesh};
 use crate::pattern::{Findings, Piece, PieceFile, Place, Problem, Spot, written_edge};
-use crate::sew::place::{PlaceError, place};
+use crate::sew::place::{PlaceError, positioned, same_sides};
+use crate::sew::start::{SPACING, Sketch, sketch};
 use crate::sew::{Stance, left_inside, sewn_on};
 
 /// Length of a garment's longest piece, as a share of the body's height, below which it is drawn in another unit. A
@@ -56,8 +57,8 @@ fn diagonal(piece: &Piece) -> f64 {
     (high - low).norm()
 }
 
-/// Finds pieces that have no place on the body as it is sewn on, in its `stance` if it has one for that, or are put
-/// into it.
+/// Finds pieces that have no start on the body as it is sewn on, in its `stance` if it has one for that, or are put
+/// into it. Warns of garments that may be worn in two ways, and of fronts and backs that are sewn by the same side.
 pub(super) fn check_places(
     loaded: &Loaded,
     mesh: &ClothMesh,
@@ -67,11 +68,8 @@ pub(super) fn check_places(
 ) {
     let Some(collider) = Collider::new(&body.mesh).map(|c| c.on_floor(body.floor())) else { return };
     let (body, collider) = sewn_on(stance, body, &collider);
-    let start = match place(&loaded.garment, mesh, body, collider) {
-        Ok(start) => start,
-        Err(error) => {
-            return findings.error(culprit(loaded, &error), Problem::Place(error.to_string()));
-        }
+    let Some(start) = positioned(&loaded.garment, mesh) else {
+        return check_start(loaded, mesh, body, findings);
     };
     doubt_places(loaded, mesh, &start, findings);
     for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
@@ -80,6 +78,30 @@ pub(super) fn check_places(
             let problem = Problem::StartsInside { piece: piece.name.clone(), depth_mm: 1e3 * deepest };
             findings.error(spot_of(loaded, piece), problem);
         }
+    }
+}
+
+/// Checks the start that the topology of a garment gives; `mesh` takes the place of the mesh that it starts on where
+/// there is none.
+fn check_start(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &mut Findings) {
+    let garment = &loaded.garment;
+    for same in same_sides(garment, mesh) {
+        let [piece, to] = same.pieces.map(|piece| garment.pieces[piece].name.clone());
+        let seam = garment.seams[same.seam].name.clone();
+        let written = loaded.file.seams.iter().find(|s| s.name.value == written_edge(&seam));
+        let spot = written.map_or_else(Spot::default, |s| s.name.at);
+        findings.warn(spot, Problem::SameSide { seam, piece, to, side: same.side });
+    }
+    let own = mesh::build(garment, SPACING).ok();
+    let mesh = own.as_ref().unwrap_or(mesh);
+    let Sketch { at, doubt, words, .. } = sketch(garment, mesh, body);
+    match at {
+        Ok(at) => doubt_places(loaded, mesh, &at, findings),
+        Err(error) => findings.error(culprit(loaded, &error), Problem::Place(error.to_string())),
+    }
+    if let Some(doubt) = doubt {
+        let words = words.iter().map(|said| (said.piece.clone(), said.word.name(), said.way)).collect();
+        findings.warn(loaded.file.version.at, Problem::WornInTwoWays { openings: doubt.to_string(), words });
     }
 }
 
@@ -98,15 +120,9 @@ fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mu
     }
 }
 
-/// Place in the file of the statement that leads to the error.
+/// Place in the file of the piece that has no start.
 fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
-    let name = match error {
-        PlaceError::Sides { seam, .. } => {
-            let written = loaded.file.seams.iter().find(|s| s.name.value == written_edge(seam));
-            return written.map_or_else(Spot::default, |s| s.name.at);
-        }
-        PlaceError::Words { piece, .. } | PlaceError::NoPart { piece, .. } | PlaceError::Nowhere { piece } => piece,
-    };
+    let (PlaceError::Unworn { piece: name, .. } | PlaceError::NoParts { piece: name, .. }) = error;
     let piece = loaded.garment.pieces.iter().find(|p| p.name == *name);
     piece.map_or_else(Spot::default, |p| spot_of(loaded, p))
 }

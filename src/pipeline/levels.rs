@@ -7,8 +7,8 @@ use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
-use crate::sew::place::{PlaceError, place};
-use crate::sew::start::{SPACING, start as topological_start, start_on};
+use crate::sew::place::{PlaceError, positioned};
+use crate::sew::start::{SPACING, start_at};
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
 
 /// Ratio of spacings between neighbouring levels.
@@ -22,9 +22,6 @@ const LEAST: f64 = 1.5;
 /// is coarser by this and carried over. Other particles jam less: they lie differently beside the seam, and fewer of
 /// them fold less.
 const DETOUR: f64 = 1.35;
-/// Steps after which the start from the topology has failed, with seams still open. At 25 mm the garments of `patterns`
-/// close within half as many, and a shirt with a fold at its armhole within this number.
-const FIRST_TRY: usize = 160;
 /// Spacings of the meshes on which a garment starts, metres: on the next where its seams close and its cloth is left
 /// caught on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that
 /// starts at 25 or at 28 mm, and not at 22.
@@ -50,7 +47,7 @@ pub(super) struct Coarse {
 }
 
 impl Job {
-    /// Sews `mesh`: coarser first, where that goes, else from the topology, else from where rules place the pieces.
+    /// Sews `mesh`: coarser first, where that goes; else from where the file positions the pieces, or from the topology.
     /// `watch` is told of the coarser levels.
     ///
     /// # Errors
@@ -68,38 +65,36 @@ impl Job {
                 return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
         }
-        // There is no other start than positions that are given.
-        if !self.garment.is_positioned()
-            && let Some(closed) = self.sew_from_topology(mesh, progress)
-        {
-            return Ok(closed);
+        if let Some(start) = self.positioned(mesh) {
+            return self.sew_positioned(mesh, start, progress);
         }
-        let start = self.placed(mesh)?;
-        let closed = self.sew_here(mesh, start.clone(), SewOptions::default(), progress)?;
-        let closed = Closed { start: Some(start), ..closed };
-        if is_whole(mesh, &closed.sewn) {
-            return Ok(closed);
-        }
-        Ok(self.detour(mesh, progress).unwrap_or(closed))
+        self.sew_from_topology(mesh, progress)
     }
 
-    /// `mesh` sewn from a start that its topology gives. None where there is none, or it does not come out whole.
-    fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
-        let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
-        let options = SewOptions { max_open: FIRST_TRY, joined: true, ..SewOptions::default() };
-        for spacing in START_MESHES {
-            let on = mesh::build(&self.garment, spacing).ok()?;
-            let start = start_on(&on, &self.garment, mesh, body, collider)?;
-            let closed = self.sew_here(mesh, start.clone(), options, progress).ok()?;
-            if is_whole(mesh, &closed.sewn) {
-                return Some(Closed { start: Some(start), ..closed });
-            }
-            // Seams that stay open have a cause that no other mesh mends.
-            if closed.sewn.open.is_some() {
-                return None;
-            }
+    /// `mesh` sewn from positions that the file gives.
+    fn sew_positioned(
+        &self,
+        mesh: &ClothMesh,
+        start: Vec<Vec3>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Closed, SewError> {
+        let closed = self.sew_here(mesh, start.clone(), SewOptions::default(), progress)?;
+        if is_whole(mesh, &closed.sewn) {
+            return Ok(Closed { start: Some(start), ..closed });
         }
-        None
+        Ok(self.detour(mesh, progress).unwrap_or(Closed { start: Some(start), ..closed }))
+    }
+
+    /// `mesh` sewn from a start that its topology gives: from the second where only that comes out whole.
+    fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
+        let [first, second] = START_MESHES;
+        let closed = self.sew_from(mesh, self.topological(first, mesh)?, progress)?;
+        // Seams that stay open have a cause that no other mesh mends.
+        if is_whole(mesh, &closed.sewn) || closed.sewn.open.is_some() {
+            return Ok(closed);
+        }
+        let again = self.sew_from(mesh, self.topological(second, mesh)?, progress)?;
+        Ok(if is_whole(mesh, &again.sewn) { again } else { closed })
     }
 
     /// `mesh` sewn from `start`, where most of it lies as a sewn garment does.
@@ -117,17 +112,20 @@ impl Job {
         Ok(Closed { start: Some(start), ..closed })
     }
 
-    /// Start positions of `mesh`, from the topology of its coarsest level, or else by rules. `None` where there is
-    /// neither.
+    /// Start positions of `mesh`, of which a positioned garment's are given. `None` where it has none.
     pub(super) fn started(&self, mesh: &ClothMesh) -> Option<Vec<Vec3>> {
+        self.positioned(mesh).or_else(|| self.topological(SPACING, mesh).ok())
+    }
+
+    /// Start positions of `mesh` that the file gives, if it gives them.
+    fn positioned(&self, mesh: &ClothMesh) -> Option<Vec<Vec3>> {
+        positioned(&self.garment, mesh)
+    }
+
+    /// Start positions of `mesh` from the garment's topology, by way of a mesh of this spacing, metres.
+    fn topological(&self, spacing: f64, mesh: &ClothMesh) -> Result<Vec<Vec3>, PlaceError> {
         let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
-        let coarse = (LEAST * mesh.spacing < COARSEST).then(|| mesh::build(&self.garment, COARSEST).ok()).flatten();
-        let start = |mesh: &ClothMesh| topological_start(&self.garment, mesh, body, collider);
-        let found = match &coarse {
-            Some(coarse) => start(coarse).map(|x| Transfer::new(coarse, mesh).apply(&x)),
-            None => start(mesh),
-        };
-        found.or_else(|| self.placed(mesh).ok())
+        start_at(spacing, &self.garment, mesh, body, collider)
     }
 
     /// Draws the seams of `mesh` itself shut.
@@ -165,17 +163,11 @@ impl Job {
     /// no better a start for draping, and forgotten.
     fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let coarse = mesh::build(&self.garment, DETOUR * mesh.spacing).ok()?;
-        let start = self.placed(&coarse).ok()?;
+        let start = self.positioned(&coarse)?;
         let closed = self.sew_here(&coarse, start, SewOptions::default(), progress).ok()?;
         let coarse = is_whole(&coarse, &closed.sewn).then_some(Coarse { mesh: coarse, closed })?;
         let (sewn, gaps) = self.carried(&coarse, mesh)?;
         Some(Closed { sewn, gaps, coarse: None, start: None })
-    }
-
-    /// Start positions of `mesh` by rules.
-    pub(super) fn placed(&self, mesh: &ClothMesh) -> Result<Vec<Vec3>, PlaceError> {
-        let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
-        place(&self.garment, mesh, body, collider)
     }
 
     /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one. None where it comes out torn or

@@ -101,7 +101,7 @@ impl<'a> Run<'a> {
         let job = self.job;
         let begin = Instant::now();
         progress("sew", 0.0);
-        let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
+        let failed = |e| PipelineError::sewing(&job.file, e);
         let mut tell = |share| progress("sew", share);
         let continued = self.earlier.as_ref().and_then(|earlier| job.continued(earlier, &mut tell));
         let closed = match continued {
@@ -114,7 +114,7 @@ impl<'a> Run<'a> {
                 self.anew = self.earlier.is_some();
                 self.watch.iter().for_each(|watch| job.look_first(watch));
                 let closed = job.sew_from_coarse(&job.mesh, self.watch(), &mut tell);
-                closed.inspect_err(|_| self.placed = job.placed(&job.mesh).ok()).map_err(failed)?
+                closed.inspect_err(|_| self.placed = job.started(&job.mesh)).map_err(failed)?
             }
         };
         let Closed { sewn, gaps, coarse, start } = closed;

@@ -6,16 +6,15 @@ use serde::Serialize;
 
 use super::error::PipelineError;
 use super::material::Checked;
-use crate::contact::Collider;
 use crate::dynamics::identity_nodes;
 use crate::geometry::{MM, TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Mannequin};
 use crate::mesh::{self, ClothMesh};
 use crate::pattern::{Garment, outfit};
 use crate::picture::{Dressed, StartMarks, draw_start, opening_color, pixels_of};
-use crate::sew::place::place;
+use crate::sew::place::{PlaceError, positioned};
 use crate::sew::start::{CLEAR, SPACING, Settling, Sketch, SketchedOpening, sketch};
-use crate::sew::{SewError, Stance, Stitching, sewn_on};
+use crate::sew::{Stance, Stitching};
 
 /// A picture of a garment's start, with its legend.
 #[derive(Clone, Debug)]
@@ -40,7 +39,7 @@ pub struct RimShown {
 /// Content of the picture of a start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StartShown {
-    /// Why the pieces are drawn where `place` puts them, if they are: there is no start from the topology.
+    /// Why the pieces are drawn where their positions put them, if they are: no start from the topology is tried.
     pub placed: Option<String>,
     /// The openings of the glued garment, its open fronts closed.
     pub openings: Vec<OpeningShown>,
@@ -93,8 +92,7 @@ pub struct WordShown {
 const DEALINGS: [&str; 2] = ["first", "second"];
 
 /// Draws the start of a garment, or of an outfit from the skin outwards, on the body that its first file names: joined
-/// at its seams, round the body's axes, before it is inflated. If its topology gives no start, the pieces are drawn as
-/// placed by rules.
+/// at its seams, round the body's axes, before it is inflated. Pieces with positions of their own are drawn there.
 ///
 /// # Errors
 /// Files without a body, a garment that cannot be meshed, or one that has neither start.
@@ -107,8 +105,8 @@ pub fn start_picture(worn: &[Checked]) -> Result<StartPicture, PipelineError> {
     // An outfit may need more room than the first of its garments.
     let own = (worn.len() > 1).then(|| Stance::of(body, &garment)).flatten();
     let on = WornOn { file: &first.file, body, stance: own.as_ref().or(first.stance.as_ref()) };
-    let mut sketch = sketch(&garment, &mesh, on.apart());
-    let start = on.start(&garment, &mesh, &mut sketch)?;
+    let sketch = sketch(&garment, &mesh, on.apart());
+    let start = on.start(&garment, &mesh, &sketch)?;
     let shown = StartShown::new(&sketch, start.why);
     let marks: Vec<(Vec<Vec<Vec3>>, String)> =
         sketch.openings.iter().zip(&shown.openings).map(|(o, said)| (rim(o, &start.at), said.text())).collect();
@@ -146,34 +144,20 @@ impl WornOn<'_> {
         self.stance.map_or(self.body, |stance| &stance.body)
     }
 
-    /// As sketched, or else as the pieces are placed.
-    fn start(&self, garment: &Garment, mesh: &ClothMesh, sketch: &mut Sketch) -> Result<StartPositions, PipelineError> {
-        let why = not_from_topology(garment, sketch);
-        match sketch.at.take().filter(|_| why.is_none()) {
-            Some(at) => Ok(StartPositions { at, weld: Stitching::new(mesh).class, why }),
+    /// As the file positions the pieces, or else as sketched.
+    fn start(&self, garment: &Garment, mesh: &ClothMesh, sketch: &Sketch) -> Result<StartPositions, PipelineError> {
+        if let Some(at) = positioned(garment, mesh) {
             // Every particle stands alone: partners are still apart.
-            None => Ok(StartPositions { at: self.placed(garment, mesh)?, weld: identity_nodes(mesh), why }),
+            return Ok(StartPositions { at, weld: identity_nodes(mesh), why: Some(POSITIONED.into()) });
         }
-    }
-
-    /// Positions of the pieces by the words of `place`, or by their positions.
-    fn placed(&self, garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Vec3>, PipelineError> {
-        let failed = |error| PipelineError::sewing(self.file, self.body, error);
-        let collider = Collider::new(&self.body.mesh).ok_or_else(|| failed(SewError::Body(self.body.name.clone())))?;
-        let collider = collider.on_floor(self.body.floor());
-        let (body, collider) = sewn_on(self.stance, self.body, &collider);
-        place(garment, mesh, body, collider).map_err(|error| failed(error.into()))
+        let failed = |error: PlaceError| PipelineError::sewing(self.file, error.into());
+        let at = sketch.at.clone().map_err(failed)?;
+        Ok(StartPositions { at, weld: Stitching::new(mesh).class, why: None })
     }
 }
 
-/// Why a garment has no start from its topology.
-fn not_from_topology(garment: &Garment, sketch: &Sketch) -> Option<String> {
-    if garment.is_positioned() {
-        return Some("every piece has a position of its own, so that no start from the topology is tried".into());
-    }
-    let why = "a part of the garment has no opening that a part of the body passes through";
-    sketch.at.is_none().then(|| why.into())
-}
+/// Reason for drawing pieces where a file positions them.
+const POSITIONED: &str = "pieces have positions of their own, so that no start from the topology is tried";
 
 /// The rim of an opening, side by side: where pieces are apart they are no ring.
 fn rim(opening: &SketchedOpening, at: &[Vec3]) -> Vec<Vec<Vec3>> {

@@ -19,15 +19,13 @@ pub struct SewOptions {
     pub tolerance: f64,
     /// Steps after which sewing gives up.
     pub max_steps: usize,
-    /// Steps after which it gives up while a seam is open, if that is sooner.
-    pub max_open: usize,
     /// Whether pieces start joined at their seams: then none is moved out of the body by itself.
     pub joined: bool,
 }
 
 impl Default for SewOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-3, max_steps: 400, max_open: 400, joined: false }
+        Self { tolerance: 1e-3, max_steps: 400, joined: false }
     }
 }
 
@@ -151,7 +149,7 @@ pub fn sew(
     let (mut steps, stages) = (0, closing.harder.len());
     for stage in 0..stages {
         let mut tell = |way: f64| progress((stage as f64 + way) / stages as f64);
-        steps += closing.close(&mut world, stage, options.max_steps.min(options.max_open) - steps, &mut tell)?;
+        steps += closing.close(&mut world, stage, options.max_steps - steps, &mut tell)?;
     }
     steps += closing.do_up(&mut world, options.max_steps - steps)?;
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{band, flare, pleat};
+use super::folded::FoldedPieces;
+use super::pleat;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, LineParticles, PieceMesh};
 use crate::pattern::{Garment, LineKind};
@@ -15,47 +16,14 @@ const STRAIGHT: f64 = 0.1e-3;
 /// A particle no further over a fold than this, metres, lies on the fold.
 const ON_FOLD: f64 = 1e-9;
 
-/// The pieces laid out flat, pressed folds folded over.
-pub(in crate::sew) struct FoldedPieces {
-    /// Flat position of every particle as drawn, but for what is folded over, y down.
-    pub(in crate::sew) drawn: Vec<Vec2>,
-    /// The same with sectors of circles unrolled, and upright bands laid level.
-    pub(super) flat: Vec<Vec2>,
-    /// That without what a sector widens towards its hem: its sides run straight down.
-    pub(super) straight: Vec<Vec2>,
-    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up;
-    /// up to 4 in a pleat.
-    pub(in crate::sew) under: Vec<f64>,
-    /// Whether it lies on other cloth of its piece: turned over at a fold, or laid in a pleat.
-    pub(in crate::sew) hidden: Vec<bool>,
-    /// How far the pleat that it is laid in is shut: 1 at the pleated edge, 0 where the pleat has opened.
-    /// 1 for what is laid in no pleat.
-    pub(in crate::sew) shut: Vec<f64>,
-    /// Off the ring that a piece is bent into, outward, metres: the waves of a circle skirt.
-    pub(super) out: Vec<f64>,
-}
-
 /// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
-/// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
-/// lays level what is an upright band.
-pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> FoldedPieces {
-    let mut sheet = pressed(garment, mesh);
-    flare::lay(garment, mesh, &mut sheet);
-    band::lay(garment, mesh, &mut sheet);
-    sheet
-}
-
-/// The same with sectors and bands as they are drawn.
+/// rim under the other, or over it where right sides meet. Lays its pleats.
 pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> FoldedPieces {
-    let nowhere = || vec![0.0; mesh.flat.len()];
     let mut sheet = FoldedPieces {
-        drawn: Vec::new(),
         flat: mesh.flat.clone(),
-        straight: Vec::new(),
-        under: nowhere(),
+        under: vec![0.0; mesh.flat.len()],
         hidden: vec![false; mesh.flat.len()],
         shut: vec![1.0; mesh.flat.len()],
-        out: nowhere(),
     };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
@@ -69,8 +37,6 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> FoldedPiec
         flaps.iter().for_each(|flap| flap.turn_over(&mut sheet));
     }
     pleat::lay(garment, mesh, &mut sheet);
-    sheet.drawn = sheet.flat.clone();
-    sheet.straight = sheet.flat.clone();
     sheet
 }
 
@@ -203,18 +169,9 @@ mod tests {
     /// Where a strip lies that is folded at 20 and at 40 mm, mm, and its layers towards the wrong side: at 10, 30 and
     /// 50 mm.
     fn layers(inner: f64, outer: f64) -> [(f64, f64); 3] {
-        let nowhere = Vec::new;
         let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
         let (under, hidden) = (vec![0.0; 3], vec![false; 3]);
-        let mut sheet = FoldedPieces {
-            drawn: nowhere(),
-            flat,
-            straight: nowhere(),
-            under,
-            hidden,
-            shut: Vec::new(),
-            out: Vec::new(),
-        };
+        let mut sheet = FoldedPieces { flat, under, hidden, shut: Vec::new() };
         let flap = |particles: &[usize], x: f64, way: f64| {
             let tangent = Tangent { at: Vec2::new(x, 0.0), across: Vec2::x() };
             FoldedFlap { particles: particles.iter().map(|p| (*p, tangent)).collect(), way }

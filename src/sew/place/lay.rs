@@ -1,18 +1,20 @@
 //! Pieces that lie on others: facings and linings start where they will be, over the cloth they are sewn to, as many
 //! layers nearer to the body or further from it as the garment says.
 
+use std::ops::Range;
+
 use nalgebra::{Isometry2, Point2, UnitComplex};
 
-use super::assign::Assigned;
-use super::fold::FoldedPieces;
-use super::ring::LAYER;
-use super::rows::{Link, links};
+use super::folded::FoldedPieces;
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
+/// Distance from one layer of cloth to the next at the start, metres.
+pub(in crate::sew) const LAYER: f64 = 0.004;
+
 /// Sides that do not match within this once the piece is turned and shifted, metres RMS, are gathered, or go round
-/// another way: such a piece has a place in a row of its own.
+/// another way: such a piece does not lie on the other.
 const MISFIT: f64 = 0.02;
 
 /// A piece that reaches further than this beyond the rims of the cloth it is sewn to, metres, does not lie on it: a
@@ -40,30 +42,17 @@ pub(in crate::sew) struct Laid {
     spots: Vec<(usize, HostSpot)>,
 }
 
-/// For every piece how it lies on others; `None` for those that have a place in a row.
-pub(super) fn laid(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    sheet: &FoldedPieces,
-    assigned: &[Assigned],
-    links: &[Link],
-) -> Vec<Option<Laid>> {
-    let table = Table { garment, mesh, sheet, links, inward: inward(mesh, sheet) };
-    let movable = |own: &usize| !garment.pieces[*own].has_position() && garment.pieces[*own].layer != 0;
-    let pieces: Vec<usize> = (0..mesh.pieces.len()).filter(movable).collect();
-    let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
-    for &own in &pieces {
-        out[own] = table.on_what_it_is_sewn_to(own);
+impl Laid {
+    /// The host that particle number `k` of the piece lies on, and where on the flat host.
+    pub(in crate::sew) fn under(&self, k: usize, flat: Vec2) -> (usize, Vec2) {
+        let host = &self.hosts[self.spots[k].0];
+        (host.piece, (host.to_host * Point2::from(flat)).coords)
     }
-    // A lining goes on from its facing, over the cloth that lies under both: all of it round one body part, or none.
-    let rest = pieces.into_iter().filter(|&own| out[own].is_none()).collect();
-    for group in table.groups(rest, |piece| assigned[piece].part) {
-        let found: Option<Vec<Laid>> = group.iter().map(|&own| table.beside_laid(own, &out)).collect();
-        for (own, laid) in group.into_iter().zip(found.into_iter().flatten()) {
-            out[own] = Some(laid);
-        }
+
+    /// A direction of the flat piece at its particle number `k`, on the flat host there.
+    pub(in crate::sew) fn turned(&self, k: usize, way: Vec2) -> Vec2 {
+        self.hosts[self.spots[k].0].to_host.rotation * way
     }
-    out
 }
 
 /// For every piece how it lies on others, if it is one of `pieces`: on those that are not, and on one another.
@@ -73,8 +62,7 @@ pub(in crate::sew) fn laid_on_rest(
     sheet: &FoldedPieces,
     pieces: &[usize],
 ) -> Vec<Option<Laid>> {
-    let links = links(mesh, sheet);
-    let table = Table { garment, mesh, sheet, links: &links, inward: inward(mesh, sheet) };
+    let table = Table { garment, mesh, sheet, inward: inward(mesh, sheet) };
     let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
     let mut rest = pieces.to_vec();
     loop {
@@ -101,37 +89,10 @@ struct Table<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     sheet: &'a FoldedPieces,
-    links: &'a [Link],
     inward: Vec<Vec2>,
 }
 
 impl Table<'_> {
-    /// These pieces in groups that are sewn together within their layer, round one body part.
-    fn groups<P: PartialEq>(&self, mut rest: Vec<usize>, part: impl Fn(usize) -> P) -> Vec<Vec<usize>> {
-        let place = |piece: usize| (self.garment.pieces[piece].level(), part(piece));
-        let joined = |a: usize, b: usize| {
-            place(a) == place(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
-        };
-        let mut out = Vec::new();
-        while let Some(first) = rest.pop() {
-            let mut group = vec![first];
-            let mut next = 0;
-            while next < group.len() {
-                let (near, far): (Vec<usize>, _) = rest.iter().partition(|&&other| joined(group[next], other));
-                group.extend(near);
-                (rest, next) = (far, next + 1);
-            }
-            out.push(group);
-        }
-        out
-    }
-
-    /// On pieces nearer to the shell that its sides match and whose cloth goes the same way from there.
-    fn on_what_it_is_sewn_to(&self, own: usize) -> Option<Laid> {
-        let layer = self.garment.pieces[own].layer.unsigned_abs();
-        self.on(own, |other| self.garment.pieces[*other].layer.unsigned_abs() < layer)
-    }
-
     /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there.
     fn on(&self, own: usize, may: impl Fn(&usize) -> bool) -> Option<Laid> {
         let lies_on = |piece: usize| {
@@ -156,8 +117,8 @@ impl Table<'_> {
     /// The turn and shift that lay a piece where its stitches with another one meet, if they match there and its cloth
     /// goes the `way` asked for. (Of a band and what hangs from it, it goes on.)
     fn matched(&self, own: usize, other: usize, way: SeamWay) -> Option<Isometry2<f64>> {
-        let stitches = stitches(self.links, own, other);
-        let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.drawn[p as usize])).collect();
+        let stitches = stitches(self.mesh, own, other);
+        let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.flat[p as usize])).collect();
         let to_other = fit(&ends)?;
         let misfit: f64 = ends.iter().map(|[a, b]| ((to_other * Point2::from(*a)).coords - b).norm_squared()).sum();
         let inward = stitches.iter().map(|pair| pair.map(|p| self.inward[p as usize]));
@@ -175,8 +136,8 @@ impl Table<'_> {
             .zip(&opened)
             .map(|(host, open)| Ground {
                 to_host: host.to_host,
-                drawn: &self.sheet.drawn,
-                locator: Locator::new(&self.sheet.drawn, open, self.mesh.spacing),
+                flat: &self.sheet.flat,
+                locator: Locator::new(&self.sheet.flat, open, self.mesh.spacing),
             })
             .collect();
         let nearest = |p: usize| {
@@ -195,68 +156,12 @@ enum SeamWay {
     On,
 }
 
-/// The same links, but from what lies on a host to the nearest of that host's particles:
-/// rows know nothing of what is laid.
-pub(super) fn through(links: Vec<Link>, mesh: &ClothMesh, laid: &[Option<Laid>]) -> Vec<Link> {
-    let mut out = Vec::new();
-    for link in links {
-        let Some(k) = (0..2).find(|&k| laid[link.pieces[k]].is_some() && laid[link.pieces[1 - k]].is_none()) else {
-            out.push(link);
-            continue;
-        };
-        let below = |p: u32| under(mesh, laid, link.pieces[k], p);
-        let ends: Vec<(usize, [u32; 2])> = link
-            .pairs
-            .iter()
-            .map(|pair| {
-                let (piece, p) = below(pair[k]);
-                (piece, if k == 0 { [p, pair[1]] } else { [pair[0], p] })
-            })
-            .collect();
-        for run in ends.chunk_by(|a, b| a.0 == b.0).filter(|run| run[0].0 != link.pieces[1 - k]) {
-            let mut pieces = link.pieces;
-            pieces[k] = run[0].0;
-            let share = run.len() as f64 / ends.len() as f64;
-            let pairs = run.iter().map(|(_, pair)| *pair).collect();
-            out.push(Link { pieces, pairs, length: link.length * share, through: true, ..link });
-        }
-    }
-    out
-}
-
-/// The piece in a row, and its particle, that particle `p` of `piece` lies over.
-fn under(mesh: &ClothMesh, laid: &[Option<Laid>], mut piece: usize, mut p: u32) -> (usize, u32) {
-    // Every host is of a layer nearer to 0: this ends.
-    while let Some(on) = &laid[piece] {
-        let (host, spot) = &on.spots[p as usize - mesh.pieces[piece].particles.start];
-        let largest = (0..3).max_by(|&a, &b| spot.within[a].total_cmp(&spot.within[b])).unwrap_or(0);
-        (piece, p) = (on.hosts[*host].piece, spot.corners[largest]);
-    }
-    (piece, p)
-}
-
-/// How many layers the deepest of the pieces that lie on one of `pieces` lies under it.
-pub(super) fn beneath(laid: &[Option<Laid>], pieces: &[usize]) -> i32 {
-    let under = |own: usize| {
-        let hosts = &laid[own].as_ref()?.hosts;
-        let layers = hosts.iter().filter(|host| pieces.contains(&host.piece)).map(|host| host.layers.saturating_neg());
-        // Every host is of a layer nearer to 0: this ends.
-        layers.max().map(|layers| layers.saturating_add(beneath(laid, &[own])))
-    };
-    (0..laid.len()).filter_map(under).fold(0, i32::max)
-}
-
 /// Stitches between two pieces, the particle of `own` first.
-fn stitches(links: &[Link], own: usize, other: usize) -> Vec<[u32; 2]> {
-    let mut out = Vec::new();
-    for link in links {
-        if link.pieces == [own, other] {
-            out.extend_from_slice(&link.pairs);
-        } else if link.pieces == [other, own] {
-            out.extend(link.pairs.iter().map(|[a, b]| [*b, *a]));
-        }
-    }
-    out
+fn stitches(mesh: &ClothMesh, own: usize, other: usize) -> Vec<[u32; 2]> {
+    let [own, other] = [own, other].map(|piece| &mesh.pieces[piece].particles);
+    let is_in = |piece: &Range<usize>, p: u32| piece.contains(&(p as usize));
+    let pairs = mesh.seams.iter().flat_map(|seam| &seam.pairs).flat_map(|&[a, b]| [[a, b], [b, a]]);
+    pairs.filter(|&[a, b]| is_in(own, a) && is_in(other, b)).collect()
 }
 
 /// The turn and shift that bring points nearest to their partners (least squares).
@@ -278,9 +183,9 @@ pub(in crate::sew) fn fit(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
 fn inward(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Vec2> {
     let mut sums = vec![(Vec2::zeros(), 0.0); mesh.flat.len()];
     for t in &mesh.triangles {
-        let middle = t.iter().map(|&n| sheet.drawn[n as usize]).sum::<Vec2>() / 3.0;
+        let middle = t.iter().map(|&n| sheet.flat[n as usize]).sum::<Vec2>() / 3.0;
         for &n in t {
-            sums[n as usize].0 += middle - sheet.drawn[n as usize];
+            sums[n as usize].0 += middle - sheet.flat[n as usize];
             sums[n as usize].1 += 1.0;
         }
     }
@@ -326,18 +231,18 @@ fn open(mesh: &ClothMesh, sheet: &FoldedPieces, piece: usize) -> Vec<[u32; 3]> {
 /// A host, flat.
 struct Ground<'a> {
     to_host: Isometry2<f64>,
-    drawn: &'a [Vec2],
+    flat: &'a [Vec2],
     locator: Locator<'a>,
 }
 
 impl Ground<'_> {
     /// The spot of the host on which particle `p` lies.
     fn under(&self, p: usize) -> HostSpot {
-        let at = (self.to_host * Point2::from(self.drawn[p])).coords;
+        let at = (self.to_host * Point2::from(self.flat[p])).coords;
         let (corners, weights) = self.locator.place(at);
         let within = weights.map(|w| w.clamp(0.0, 1.0));
         let within = within.map(|w| w / within.iter().sum::<f64>());
-        let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| self.drawn[n as usize] * w).sum();
+        let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| self.flat[n as usize] * w).sum();
         // Within the rim nothing but rounding tells hosts apart: the first one has it.
         let beyond = Some((at - nearest).norm()).filter(|d| *d > ROUNDING).unwrap_or(0.0);
         HostSpot { beyond, corners, weights, within }

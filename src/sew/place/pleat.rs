@@ -8,7 +8,7 @@
 //!
 //! Panels lie like shingles, so that pleats may follow one another edge to edge.
 
-use super::fold::FoldedPieces;
+use super::folded::FoldedPieces;
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
 use crate::pattern::{EdgeId, Garment, PleatLayer, Seam, SeamKind};

@@ -7,8 +7,8 @@ mod spread;
 
 use super::close::{SewOptions, Sewn, sew};
 use super::error::SewError;
-use super::place::goes_between_legs;
 use super::settle::{Calm, come_out, settle, sewn_world};
+use super::start::goes_between_legs;
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
@@ -48,7 +48,7 @@ impl Stance {
         if body.parts.is_empty() {
             return None;
         }
-        let spreads = spreads(body, goes_between_legs(garment));
+        let spreads = spreads(body, || goes_between_legs(garment, body));
         if spreads.is_empty() {
             return None;
         }

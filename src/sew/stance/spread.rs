@@ -18,22 +18,25 @@ const LEAN: f64 = 0.6;
 /// A spread is smoothed over so many levels up and down.
 const SMOOTH: usize = 8;
 
-/// The limbs of `body` that are too near to others to sew between them, with or without its legs, and how they are
-/// spread.
-pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<LimbSpread> {
+/// The limbs of `body` that are too near to others to sew between them, and how they are spread; its legs only where
+/// cloth goes `between_legs`, which is asked only if they are too near.
+pub(super) fn spreads(body: &Mannequin, between_legs: impl Fn() -> bool) -> Vec<LimbSpread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
     let Some(known) = Limbs::new(body) else { return Vec::new() };
     let mut out: Vec<LimbSpread> = Vec::new();
     for junction in junctions(&mesh, &edges, LIMB) {
         let [Some(limb), beside] = known.of(&junction) else { continue };
-        if (limb.is_leg() && !legs) || out.iter().any(|spread| spread.kind == limb) {
+        if out.iter().any(|spread| spread.kind == limb) {
             continue;
         }
         let levels = junction.levels();
         // Legs come first: spread, they come nearer to the arms.
         let (gaps, way) = apart(&mesh, &junction, &levels);
         let Some(by) = opening(&gaps) else { continue };
+        if limb.is_leg() && !between_legs() {
+            continue;
+        }
         // Of two legs both give way; what an arm hangs beside stays.
         let sides = match beside.filter(|beside| limb.is_leg() && beside.is_leg()) {
             Some(beside) => vec![(JunctionSide::Limb, limb, 0.5), (JunctionSide::Beside, beside, -0.5)],

@@ -8,7 +8,7 @@ use nalgebra::{Isometry2, Point2};
 use super::glue::Follow;
 use crate::geometry::{Locator, Vec2, distance_to_segment};
 use crate::mesh::ClothMesh;
-use crate::sew::place::fold::FoldedPieces;
+use crate::sew::place::folded::FoldedPieces;
 
 /// Beside a rim that goes on, cloth within this share of the spacing beyond its closed end lies under it too.
 const BESIDE: f64 = 0.75;

@@ -9,11 +9,7 @@ use crate::pattern::Garment;
 
 /// Two ways of wearing a garment fit about as well.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "it is not clear how the garment is worn: {}; give one of these pieces a place, such as 'place: arm', 'hip' or \
-         'neck'",
-    list(openings)
-)]
+#[error("it is not clear how the garment is worn: {}", list(openings))]
 pub struct DealError {
     /// The openings that differ.
     pub openings: Vec<Doubt>,

@@ -9,7 +9,8 @@ use super::openings::rims;
 use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, PleatLayer, SeamKind};
-use crate::sew::place::fold::{FoldedPieces, pressed};
+use crate::sew::place::fold::pressed;
+use crate::sew::place::folded::FoldedPieces;
 
 /// No node: of what is left out of the surface.
 const NONE: u32 = u32::MAX;
@@ -122,7 +123,7 @@ impl ToGlue<'_> {
         cover(&mut is_out, &laps);
         let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
         (out.follows, out.beyond) = follows(mesh, self.sheet);
-        let roll = |p: u32| Beyond { particle: p, at: self.sheet.drawn[p as usize], layers: ROLL };
+        let roll = |p: u32| Beyond { particle: p, at: self.sheet.flat[p as usize], layers: ROLL };
         out.beyond.extend(strips.into_iter().map(roll));
         (out.laps, out.left_out, out.zips) = (laps, left_out, self.zips.to_vec());
         (out, is_whole)
@@ -304,13 +305,13 @@ fn follows(mesh: &ClothMesh, sheet: &FoldedPieces) -> (Vec<Option<Follow>>, Vec<
         if open.is_empty() || !piece.particles.clone().any(|p| sheet.hidden[p]) {
             continue;
         }
-        let ground = Locator::new(&sheet.drawn, &open, mesh.spacing);
+        let ground = Locator::new(&sheet.flat, &open, mesh.spacing);
         for p in piece.particles.clone().filter(|&p| sheet.hidden[p]) {
-            let (corners, weights) = ground.place(sheet.drawn[p]);
+            let (corners, weights) = ground.place(sheet.flat[p]);
             let layers = -sheet.under[p];
             let is_outside = weights.iter().any(|w| *w < -ROUNDING);
             if is_outside && layers > 0.0 && corners.iter().any(|n| is_sewn[*n as usize]) {
-                beyond.push(Beyond { particle: p as u32, at: sheet.drawn[p], layers });
+                beyond.push(Beyond { particle: p as u32, at: sheet.flat[p], layers });
             } else {
                 out[p] = Some(Follow { corners, weights, layers, share: sheet.shut[p] });
             }

@@ -8,8 +8,7 @@ use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
 use crate::sew::Stitching;
 use crate::sew::place::fold::pressed;
-use crate::sew::place::lay;
-use crate::sew::place::ring::LAYER;
+use crate::sew::place::lay::{self, LAYER, Laid};
 
 /// Laps and collars start so far out of what they lie on, metres: chords of 25 mm lie 2 mm within the circle of a
 /// wrist, of either layer. Pleats and hems lie flatter.
@@ -37,12 +36,12 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
     laying.follow(hidden);
     let seams = SeamJoints::new(mesh);
     hang(garment, mesh, &seams, glued, &mut laying);
-    laying.lay_flat(garment, mesh, glued);
+    let laid = laying.lay_flat(garment, mesh, glued);
     let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| laying.x[p].is_none());
     let mut left: Vec<usize> = glued.left_out.iter().filter(has_no_place).copied().collect();
     left.sort_by_key(|piece| (garment.pieces[*piece].layer.unsigned_abs(), *piece));
     // A piece may be sewn to others that are left out only: these come first.
-    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, &seams, *piece, &mut laying)) {
+    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, &seams, &laid, *piece, &mut laying)) {
         left.remove(k);
     }
     let middle = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
@@ -160,8 +159,8 @@ impl ParticleLaying {
         }
     }
 
-    /// Lays what is left out on the cloth that its flat sides match.
-    fn lay_flat(&mut self, garment: &Garment, mesh: &ClothMesh, glued: &Glued) {
+    /// Lays what is left out on the cloth that its flat sides match. Returns how every piece lies that does.
+    fn lay_flat(&mut self, garment: &Garment, mesh: &ClothMesh, glued: &Glued) -> Vec<Option<Laid>> {
         let sheet = pressed(garment, mesh);
         let laid = lay::laid_on_rest(garment, mesh, &sheet, &glued.left_out);
         let mut placed: Vec<Vec3> = self.x.iter().map(|p| p.unwrap_or_default()).collect();
@@ -174,6 +173,7 @@ impl ParticleLaying {
                 self.plies[p] = Ply { outward: -inward[p], height: LAYER * (layer - sheet.under[p]) };
             }
         }
+        laid
     }
 }
 
@@ -238,6 +238,8 @@ struct Hosts<'a> {
     /// The triangles of every piece of which all corners have a place.
     grounds: Vec<Option<Locator<'a>>>,
     seams: &'a SeamJoints,
+    /// How pieces lie flat on others.
+    laid: &'a [Option<Laid>],
 }
 
 /// The joints of all seams, whether their cloth has a place or not.
@@ -260,9 +262,15 @@ fn open(mesh: &ClothMesh, x: &[Option<Vec3>]) -> Vec<Vec<[u32; 3]>> {
 }
 
 impl<'a> Hosts<'a> {
-    fn new(garment: &'a Garment, mesh: &'a ClothMesh, seams: &'a SeamJoints, open: &'a [Vec<[u32; 3]>]) -> Self {
+    fn new(
+        garment: &'a Garment,
+        mesh: &'a ClothMesh,
+        seams: &'a SeamJoints,
+        laid: &'a [Option<Laid>],
+        open: &'a [Vec<[u32; 3]>],
+    ) -> Self {
         let ground = |open: &'a Vec<[u32; 3]>| (!open.is_empty()).then(|| Locator::new(&mesh.flat, open, mesh.spacing));
-        Self { garment, mesh, grounds: open.iter().map(ground).collect(), seams }
+        Self { garment, mesh, grounds: open.iter().map(ground).collect(), seams, laid }
     }
 
     /// Lays a particle so far along a seam from a stitch and across it into the host's cloth, metres, and so many
@@ -339,20 +347,32 @@ impl<'a> Hosts<'a> {
         let over = if on == On::OwnSide && host_along.perp(&host_across) * own_side < 0.0 { -1.0 } else { 1.0 };
         let along = (x[high as usize]? - x[low as usize]?).try_normalize(0.0)?;
         let (across, outward) = beside(mesh, host, q, along, x)?;
+        let below = (beyond.is_none() && over < 0.0).then(|| self.below(host, q, [host_along, -host_across])).flatten();
+        let on_own = || (host, mesh.flat[q as usize], [host_along, host_across * over]);
+        let (host, host_flat, [host_along, host_across]) = below.unwrap_or_else(on_own);
         Some(Stitch {
             flat: mesh.flat[p as usize],
             flat_along,
             flat_across,
             host,
-            host_flat: mesh.flat[q as usize],
+            host_flat,
             host_along,
-            host_across: host_across * over,
+            host_across,
             place: x[q as usize]?,
             along,
             across: across * over,
             outward,
             layers: f64::from(lay::layers_over(garment, piece, host)),
         })
+    }
+
+    /// The cloth that a piece lies flat on at its particle `q`: its piece, the place of the particle on it, and two
+    /// directions of the piece there. A lining goes on from its facing over the cloth that lies under both.
+    fn below(&self, piece: usize, q: u32, ways: [Vec2; 2]) -> Option<(usize, Vec2, [Vec2; 2])> {
+        let laid = self.laid.get(piece)?.as_ref()?;
+        let k = q as usize - self.mesh.pieces[piece].particles.start;
+        let (host, at) = laid.under(k, self.mesh.flat[q as usize]);
+        Some((host, at, ways.map(|way| laid.turned(k, way))))
     }
 
     /// The cloth of another piece that has a place and goes from a seam to the same side as the piece's own, and its
@@ -422,9 +442,16 @@ fn nearest(stitches: &[Stitch], at: Vec2) -> Option<&Stitch> {
 }
 
 /// Lays a piece from its seams over the cloth that it is sewn to. Returns whether it is sewn to any that has a place.
-fn lay(garment: &Garment, mesh: &ClothMesh, seams: &SeamJoints, piece: usize, laying: &mut ParticleLaying) -> bool {
+fn lay(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    seams: &SeamJoints,
+    laid: &[Option<Laid>],
+    piece: usize,
+    laying: &mut ParticleLaying,
+) -> bool {
     let open = open(mesh, &laying.x);
-    let hosts = Hosts::new(garment, mesh, seams, &open);
+    let hosts = Hosts::new(garment, mesh, seams, laid, &open);
     let stitches = hosts.stitches(piece, On::OwnSide, &laying.x);
     if stitches.is_empty() {
         return false;
@@ -449,7 +476,7 @@ fn hang(garment: &Garment, mesh: &ClothMesh, seams: &SeamJoints, glued: &Glued, 
             continue;
         }
         let open = open(mesh, &laying.x);
-        let hosts = Hosts::new(garment, mesh, seams, &open);
+        let hosts = Hosts::new(garment, mesh, seams, &[], &open);
         let stitches = hosts.stitches(i, On::SewnTo, &laying.x);
         for beyond in own {
             let Some(near) = nearest(&stitches, beyond.at) else { continue };

@@ -10,7 +10,7 @@ use super::glue::Follow;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
-use crate::sew::place::fold::FoldedPieces;
+use crate::sew::place::folded::FoldedPieces;
 use crate::sew::place::lay::fit;
 
 /// A rim goes on closed beyond its last button for this much, metres, or for the distance between two buttons if that

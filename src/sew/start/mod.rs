@@ -46,6 +46,7 @@ mod words;
 mod zip;
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
 pub use cloth::Distances;
 pub use crossing::{CrossedEnd, uncrossed};
@@ -59,10 +60,11 @@ pub use sketch::{Sketch, SketchedOpening, sketch};
 pub use words::Settling;
 
 use crate::contact::Collider;
-use crate::geometry::{DisjointSets, Vec3};
+use crate::geometry::{DisjointSets, MM, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord};
+use crate::sew::place::PlaceError;
 use axes::Axes;
 use balloon::{Balloon, Held, Length};
 use circles::Mouth;
@@ -80,31 +82,57 @@ pub const SPACING: f64 = 0.025;
 const ALL_ROUND: f64 = 0.8;
 
 /// Where every particle of `to` starts on a body: glued along its seams, round the parts that its openings are for.
-/// `collider` is the body's surface. `None` where it is not clear which part passes through which opening, or a part of
-/// the garment has no opening that anything passes through.
-pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Collider) -> Option<Vec<Vec3>> {
-    start_on(&mesh::build(garment, SPACING).ok()?, garment, to, body, collider)
+/// `collider` is the body's surface. The better dealing counts where two are about as good.
+///
+/// # Errors
+/// [`PlaceError`] when a part of the garment has no opening that a part of the body passes through.
+pub fn start(
+    garment: &Garment,
+    to: &ClothMesh,
+    body: &Mannequin,
+    collider: &Collider,
+) -> Result<Vec<Vec3>, PlaceError> {
+    start_at(SPACING, garment, to, body, collider)
 }
 
-/// [`start`] on another mesh of the garment than that of [`SPACING`].
+/// [`start`] on another mesh of the garment than that of [`SPACING`], metres; on `to` itself where it cannot be meshed
+/// so.
+pub(crate) fn start_at(
+    spacing: f64,
+    garment: &Garment,
+    to: &ClothMesh,
+    body: &Mannequin,
+    collider: &Collider,
+) -> Result<Vec<Vec3>, PlaceError> {
+    match mesh::build(garment, spacing) {
+        Ok(on) => start_on(&on, garment, to, body, collider),
+        Err(_) => start_on(to, garment, to, body, collider),
+    }
+}
+
+/// [`start`] by way of `mesh`.
 pub(crate) fn start_on(
     mesh: &ClothMesh,
     garment: &Garment,
     to: &ClothMesh,
     body: &Mannequin,
     collider: &Collider,
-) -> Option<Vec<Vec3>> {
-    let stages = Dealt::stages(garment, mesh, body);
-    if stages.iter().any(|stage| stage.doubt.is_some()) {
-        return None;
-    }
-    let dealt = stages.last()?;
+) -> Result<Vec<Vec3>, PlaceError> {
+    let dealt = Dealt::last(garment, mesh, body);
     let axes = Axes::of(body);
     let level = dealt.levels(garment, mesh);
-    let mut nodes = dealt.on_film(garment, mesh, &axes, |film| dealt.inflated(mesh, film, &axes, collider))?;
+    let nodes = dealt.on_film(garment, mesh, &axes, |film| dealt.inflated(mesh, film, &axes, collider));
+    let mut nodes = nodes.ok_or_else(|| dealt.unworn(garment, mesh, body))?;
     outside::put_outside(&mut nodes, &dealt.glued.triangles, &level, &axes);
     let x = hand_over::particles(garment, mesh, &dealt.glued, &nodes);
-    Some(Transfer::new(mesh, to).apply(&x))
+    Ok(Transfer::new(mesh, to).apply(&x))
+}
+
+/// Whether some opening of a garment has one leg through it, as those of trousers, leotards and leg warmers.
+pub(super) fn goes_between_legs(garment: &Garment, body: &Mannequin) -> bool {
+    let Ok(mesh) = mesh::build(garment, SPACING) else { return false };
+    let one_leg = |ends: &Ends| ends.has(Ends::LEFT_LEG) != ends.has(Ends::RIGHT_LEG);
+    Dealt::last(garment, &mesh, body).dealing.ends.iter().any(one_leg)
 }
 
 /// A glued garment on the film between its openings.
@@ -141,7 +169,35 @@ impl Dealt {
         let first = Self::with(garment, mesh, body, &[]);
         let zips = first.dealing.zips.clone();
         let closed = (!zips.is_empty()).then(|| Self::with(garment, mesh, body, &zips));
-        std::iter::once(first).chain(closed).collect()
+        let mut stages: Vec<Self> = std::iter::once(first).chain(closed).collect();
+        let last = stages.pop().map(|last| last.without_sheets(mesh));
+        stages.extend(last);
+        stages
+    }
+
+    /// The garment as it is put on.
+    fn last(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Self {
+        let mut stages = Self::stages(garment, mesh, body);
+        stages.pop().unwrap_or_else(|| Self::with(garment, mesh, body, &[]))
+    }
+
+    /// Takes the ends of the body out of the openings of flat sheets: nothing passes through what has no other opening
+    /// than its rim, unless it is a bag as a cap is, whose rim is shorter than that of a disk of its area.
+    fn without_sheets(mut self, mesh: &ClothMesh) -> Self {
+        let parts = self.glued.part_of.iter().max().map_or(0, |last| last + 1);
+        let mut area = vec![0.0; parts as usize];
+        for (t, source) in self.glued.triangles.iter().zip(&self.glued.source) {
+            area[self.glued.part_of[t[0] as usize] as usize] += flat_area(mesh, *source);
+        }
+        for part in 0..parts {
+            let own: Vec<usize> = (0..self.openings.len()).filter(|&k| self.openings[k].part == part).collect();
+            if let [only] = own[..]
+                && self.openings[only].length.powi(2) >= 4.0 * PI * area[part as usize]
+            {
+                self.dealing.ends[only] = Ends::NONE;
+            }
+        }
+        self
     }
 
     fn with(garment: &Garment, mesh: &ClothMesh, body: &Mannequin, zips: &[[u32; 2]]) -> Self {
@@ -247,6 +303,26 @@ impl Dealt {
         (0..parts).map(of_part).collect()
     }
 
+    /// Why a garment has no start: of the parts that nothing passes through, the first piece.
+    fn unworn(&self, garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> PlaceError {
+        let is_worn = |part: u32| {
+            let ends = self.openings.iter().zip(&self.dealing.ends);
+            ends.into_iter().any(|(opening, ends)| opening.part == part && !ends.is_empty())
+        };
+        let part = |piece: &PieceMesh| piece.particles.clone().find_map(|p| self.glued.node_of[p]);
+        let part = |piece: &PieceMesh| part(piece).map(|n| self.glued.part_of[n as usize]);
+        let unworn = mesh.pieces.iter().position(|piece| part(piece).is_some_and(|part| !is_worn(part)));
+        let unworn = unworn.unwrap_or(0);
+        let (piece, mannequin) = (garment.pieces[unworn].name.clone(), body.name.clone());
+        if body.parts.is_empty() {
+            return PlaceError::NoParts { piece, mannequin };
+        }
+        let own = self.openings.iter().filter(|opening| Some(opening.part) == part(&mesh.pieces[unworn]));
+        let lengths: Vec<String> = own.map(|opening| format!("{:.0} mm", MM * opening.length)).collect();
+        let openings = if lengths.is_empty() { "none".to_owned() } else { lengths.join(", ") };
+        PlaceError::Unworn { piece, mannequin, openings }
+    }
+
     /// The level of every node: the lowest of the pieces that its connected part is of.
     fn levels(&self, garment: &Garment, mesh: &ClothMesh) -> Vec<i32> {
         let parts = self.glued.part_of.iter().max().map_or(0, |last| *last as usize + 1);
@@ -318,6 +394,12 @@ impl Dealt {
         let pieces = mesh.pieces.iter().enumerate().filter(|(_, piece)| piece.particles.clone().any(is_of));
         pieces.flat_map(|(piece, _)| marks::words(garment, piece)).map(PlaceWord::name).collect()
     }
+}
+
+/// Area of a triangle of the mesh as it is cut, square metres.
+fn flat_area(mesh: &ClothMesh, triangle: u32) -> f64 {
+    let [a, b, c] = mesh.triangles[triangle as usize].map(|p| mesh.flat[p as usize]);
+    0.5 * (b - a).perp(&(c - a)).abs()
 }
 
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.

@@ -9,13 +9,14 @@ use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
+use crate::sew::place::PlaceError;
 
 /// The start of a garment before it is inflated.
 #[derive(Clone, Debug)]
 pub struct Sketch {
-    /// Where every particle is, metres: on the film between the openings, which are rings round the body's axes. None
-    /// where a part of the garment has no opening that anything passes through.
-    pub at: Option<Vec<Vec3>>,
+    /// Where every particle is, metres: on the film between the openings, which are rings round the body's axes; or the
+    /// piece that nothing passes through.
+    pub at: Result<Vec<Vec3>, PlaceError>,
     /// The openings of the glued garment, its open fronts closed.
     pub openings: Vec<SketchedOpening>,
     /// By how much the next dealing costs more. Infinite where there is none.
@@ -46,13 +47,11 @@ pub fn sketch(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Sketch {
     let words = in_doubt.map_or_else(Vec::new, |stage| settling(garment, mesh, stage, body));
     let margin = stages.iter().map(|stage| stage.dealing.margin).fold(f64::INFINITY, f64::min);
     let doubt = in_doubt.and_then(|stage| stage.doubt.clone());
-    let mut out = Sketch { at: None, openings: Vec::new(), margin, doubt, words };
-    if let Some(dealt) = stages.last() {
-        let nodes = dealt.on_film(garment, mesh, &Axes::of(body), |film| film.nodes);
-        out.at = nodes.map(|nodes| hand_over::particles(garment, mesh, &dealt.glued, &nodes));
-        out.openings = openings(garment, mesh, dealt);
-    }
-    out
+    let dealt = &stages[stages.len() - 1];
+    let nodes = dealt.on_film(garment, mesh, &Axes::of(body), |film| film.nodes);
+    let at = nodes.map(|nodes| hand_over::particles(garment, mesh, &dealt.glued, &nodes));
+    let at = at.ok_or_else(|| dealt.unworn(garment, mesh, body));
+    Sketch { at, openings: openings(garment, mesh, dealt), margin, doubt, words }
 }
 
 fn openings(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt) -> Vec<SketchedOpening> {

@@ -11,6 +11,11 @@ use crate::mesh::PieceMesh;
 const WIDE: f64 = 1.2;
 /// And no wider than this.
 const WIDEST: f64 = 2.2;
+/// The fronts have at least this share of what is between the middles of the neck and of the hem. A bolero's fronts are
+/// so far apart that its rim is no longer than a neck and a trunk together.
+const LEAST: f64 = 0.1;
+/// A rim of less than this share of a neck and a trunk together is no neckline with a hem: a pocket's.
+const SHORT: f64 = 0.5;
 /// A corner of a rim turns by at least this much (cosine; 40°).
 const CORNER: f64 = 0.77;
 
@@ -73,6 +78,11 @@ fn stretch(wearing: &Wearing, half: &[[u32; 2]], top: f64, bottom: f64) -> Vec<u
         at.push(whole);
         whole += course(wearing, side).norm();
     }
+    let scale = f64::min(1.0, (1.0 - LEAST) * whole / (WIDE * (top + bottom)));
+    if scale < SHORT {
+        return Vec::new();
+    }
+    let (top, bottom) = (scale * top, scale * bottom);
     let is_corner = |&k: &usize| {
         half[k - 1][1] == half[k][0] && {
             let (before, after) = (course(wearing, half[k - 1]).normalize(), course(wearing, half[k]).normalize());
