@@ -249,7 +249,9 @@ fn a_facing_starts_on_what_it_faces_and_a_yoke_of_another_layer_beside_it() {
         let off = outside(&job.mesh, &start, facing, shell, 0.0);
         assert!(off.iter().all(|d| (-0.008..-0.001).contains(d)), "{facing}: {off:?}");
     }
-    assert!(start.iter().all(|p| job.collider.nearest(*p, 0.1).is_none_or(|near| near.distance > 0.0)), "in the body");
+    // Less than a layer deep, which sewing pushes out.
+    let deepest = start.iter().filter_map(|p| job.collider.nearest(*p, 0.1)).map(|near| near.distance);
+    assert!(deepest.fold(0.0, f64::min) > -0.004, "in the body");
     // A cape reaches far beyond the top, round the arms: it has a ring of its own.
     let text = std::fs::read_to_string(file).expect("a file").replace("layer: -1", "layer: 1");
     let text = text.replace(

@@ -97,7 +97,8 @@ fn check_start(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &m
     let Sketch { at, doubt, words, .. } = sketch(garment, mesh, body);
     match at {
         Ok(at) => doubt_places(loaded, mesh, &at, findings),
-        Err(error) => findings.error(culprit(loaded, &error), Problem::Place(error.to_string())),
+        // A pattern may be looked at before it is whole.
+        Err(error) => findings.warn(culprit(loaded, &error), Problem::Place(error.to_string())),
     }
     if let Some(doubt) = doubt {
         let words = words.iter().map(|said| (said.piece.clone(), said.word.name(), said.way)).collect();

@@ -22,9 +22,9 @@ const LEAST: f64 = 1.5;
 /// is coarser by this and carried over. Other particles jam less: they lie differently beside the seam, and fewer of
 /// them fold less.
 const DETOUR: f64 = 1.35;
-/// Spacings of the meshes on which a garment starts, metres: on the next where its seams close and its cloth is left
-/// caught on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that
-/// starts at 25 or at 28 mm, and not at 22.
+/// Spacings of the meshes on which a garment starts, metres: on the next where a seam stays open or cloth is left caught
+/// on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that starts at
+/// 25 or at 28 mm, and not at 22. So does an armpit the sleeve of a shirt under arms that hang close to the trunk.
 const START_MESHES: [f64; 2] = [SPACING, 0.022];
 /// Share of a stage's progress that its coarser levels take.
 pub(super) const COARSE_SHARE: f64 = 0.3;
@@ -47,8 +47,8 @@ pub(super) struct Coarse {
 }
 
 impl Job {
-    /// Sews `mesh`: coarser first, where that goes; else from where the file positions the pieces, or from the topology.
-    /// `watch` is told of the coarser levels.
+    /// Sews `mesh`: coarser first, where that goes; else from where the file positions the pieces, or from the
+    /// topology. `watch` is told of the coarser levels.
     ///
     /// # Errors
     /// A piece without a place, or a garment that cannot be sewn.
@@ -85,16 +85,17 @@ impl Job {
         Ok(self.detour(mesh, progress).unwrap_or(Closed { start: Some(start), ..closed }))
     }
 
-    /// `mesh` sewn from a start that its topology gives: from the second where only that comes out whole.
+    /// `mesh` sewn from starts that its topology gives: from the first of which it comes out whole, or else from the
+    /// first of all.
     fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
-        let [first, second] = START_MESHES;
-        let closed = self.sew_from(mesh, self.topological(first, mesh)?, progress)?;
-        // Seams that stay open have a cause that no other mesh mends.
-        if is_whole(mesh, &closed.sewn) || closed.sewn.open.is_some() {
+        let mut sewn_at = |spacing| self.sew_from(mesh, self.topological(spacing, mesh)?, progress);
+        let [first, others @ ..] = START_MESHES;
+        let closed = sewn_at(first)?;
+        if is_whole(mesh, &closed.sewn) {
             return Ok(closed);
         }
-        let again = self.sew_from(mesh, self.topological(second, mesh)?, progress)?;
-        Ok(if is_whole(mesh, &again.sewn) { again } else { closed })
+        let again = others.into_iter().filter_map(|spacing| sewn_at(spacing).ok());
+        Ok(again.into_iter().find(|again| is_whole(mesh, &again.sewn)).unwrap_or(closed))
     }
 
     /// `mesh` sewn from `start`, where most of it lies as a sewn garment does.

@@ -1,8 +1,8 @@
 //! Writing results: a set of files whole or not at all, never over an input.
 //!
 //! Every file is written beside its target under a temporary name and renamed when all of them are complete. When the
-//! program is interrupted, the handler that [`undo_on_interrupt`] sets up removes files that are still temporary and puts
-//! back what a [`Preview`] stands in for.
+//! program is interrupted, the handler that [`undo_on_interrupt`] sets up removes files that are still temporary. It
+//! puts back what a [`Preview`] stands in for.
 
 mod error;
 mod preview;

@@ -24,8 +24,8 @@ pub enum PlaceError {
     /// No part of the body passes through an opening of the piece and what it is sewn to.
     #[error(
         "piece '{piece}' finds no place: no part of mannequin '{mannequin}' passes through an opening of it and of \
-         what it is sewn to ({openings}), so that nothing holds it; look at its size and units, sew it to what is \
-         worn, or give it a place: {{at: [x, y, z]}}"
+         what it is sewn to (lengths: {openings}), so that nothing holds it; look at its size and units, sew it to \
+         what is worn, or give it a place: {{at: [x, y, z]}}"
     )]
     Unworn {
         /// The piece.

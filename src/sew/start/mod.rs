@@ -319,7 +319,7 @@ impl Dealt {
         }
         let own = self.openings.iter().filter(|opening| Some(opening.part) == part(&mesh.pieces[unworn]));
         let lengths: Vec<String> = own.map(|opening| format!("{:.0} mm", MM * opening.length)).collect();
-        let openings = if lengths.is_empty() { "none".to_owned() } else { lengths.join(", ") };
+        let openings = if lengths.is_empty() { "there is none".to_owned() } else { lengths.join(", ") };
         PlaceError::Unworn { piece, mannequin, openings }
     }
 
