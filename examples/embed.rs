@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mesh = build(&garment, SPACING)?;
     let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
-    let at = start(&garment, &mesh, &body, &collider).ok_or("it is not clear how the garment is worn")?;
+    let at = start(&garment, &mesh, &body, &collider)?;
     let options = SewOptions { joined: true, ..SewOptions::default() };
     let sewn = sew(&cut, &collider, at, &options, &mut |_| {})?;
     sewn.closed(&mesh, options.tolerance)?;
