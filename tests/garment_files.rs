@@ -372,6 +372,7 @@ fn a_counter_clockwise_outline_is_turned_with_a_warning() {
 #[test]
 fn a_facing_without_a_layer_of_its_own_is_warned_of() {
     let shell = SQUARES.replace("  b:", "  back:").replace("b.", "back.").replace("  a:", "  front:");
+    let shell = shell.replace("  front:\n", "  front:\n    place: torso front\n");
     let shell = shell.replace("a.", "front.").replace("front.top, ", "facing.right, facing.bottom, facing.left, ");
     let faced = |piece: &str| {
         let text = shell.replace("seams:\n", &format!("  facing: {{like: front, {piece}}}\nseams:\n"));
@@ -379,7 +380,7 @@ fn a_facing_without_a_layer_of_its_own_is_warned_of() {
     };
     let outside = faced("place: torso front");
     let message = "lies on 'front' (face: same), but both are on layer 0";
-    assert!(matches!(&outside[..], [d] if d.line == 22 && d.message.contains(message)), "{outside:?}");
+    assert!(matches!(&outside[..], [d] if d.line == 23 && d.message.contains(message)), "{outside:?}");
     let remedy = "give 'facing' layer: -1 if it is worn inside, as a facing, or layer: 1 if outside";
     assert_eq!((outside[0].severity, outside[0].hint.as_deref()), (Severity::Warning, Some(remedy)));
     // With its layer, and as a collar that is turned down.

@@ -2,17 +2,14 @@
 //! here by sampling their definitions, with no code of the program.
 
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use toile::geometry::{TriMesh, Vec2};
+use toile::geometry::Vec2;
 use toile::io::garment::{read_text, write};
 use toile::io::garmentcode::{ImportError, Wearer, read};
 use toile::mesh::build;
 use toile::pattern::{Garment, Give, PieceFile, PlaceFile, SeamKind};
-use toile::pipeline::{Job, Overrides};
-use toile::sew::start::start;
-use toile::verify::crossings;
 
 /// A front and a back in centimetres, half of each, with every kind of curve, and a band over the back.
 fn specification() -> Value {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 use toile::io::garment::read_text;
-use toile::pattern::{Diagnostic, Problem, Severity, Span};
+use toile::pattern::{Diagnostic, Severity, Span};
 use toile::pipeline::check;
 
 /// Two squares sewn at one side, with the tensile curve of a machine that stopped early and one that slipped.

@@ -1,9 +1,9 @@
 //! Pieces that lie on each other, and on which layer.
 
 use super::diagnostic::{Findings, Spot};
-use super::place_word::{PlaceMeaning, PlaceWord};
+use super::place_word::PlaceMeaning;
 use super::problem::Problem;
-use super::{Garment, Piece, Place, Seam};
+use super::{Garment, Piece, Seam};
 
 /// Warns of pieces on one layer that a seam with `face: same` lays on each other: a facing would start outside. `laid`
 /// marks the seams of that kind, and `at` has their places.
@@ -25,20 +25,10 @@ fn level<'g>(garment: &'g Garment, seam: &Seam) -> Option<[&'g Piece; 2]> {
 /// Whether both go to the front, or both to the back, and neither round the neck. A collar is turned down over its
 /// partner, on whichever layer.
 fn lies_on(a: &Piece, b: &Piece) -> bool {
-    let [a, b] = [a, b].map(meanings);
+    let [a, b] = [a, b].map(Piece::meanings);
     let says = |said: &[PlaceMeaning], meaning| said.contains(&meaning);
     let alike = |meaning| says(&a, meaning) == says(&b, meaning);
     let faces = says(&a, PlaceMeaning::Front) != says(&a, PlaceMeaning::Back);
     let round_neck = says(&a, PlaceMeaning::Neck) || says(&b, PlaceMeaning::Neck);
     faces && alike(PlaceMeaning::Front) && alike(PlaceMeaning::Back) && !round_neck
-}
-
-/// Meanings of the words of its place, or else of its name.
-fn meanings(piece: &Piece) -> Vec<PlaceMeaning> {
-    let words = match &piece.place {
-        Some(Place::Around { words }) => words.clone(),
-        Some(Place::At { .. }) => Vec::new(),
-        None => PlaceWord::in_name(&piece.drawn_as),
-    };
-    words.into_iter().map(PlaceWord::meaning).collect()
 }

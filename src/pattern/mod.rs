@@ -153,6 +153,14 @@ impl Piece {
         matches!(self.place, Some(Place::At { .. }))
     }
 
+    /// Meanings of the words of its place. What a piece is called means nothing.
+    pub fn meanings(&self) -> Vec<PlaceMeaning> {
+        match &self.place {
+            Some(Place::Around { words }) => words.iter().map(|word| word.meaning()).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Whether it and another piece are the two halves of a pair.
     pub fn is_twin(&self, other: &Self) -> bool {
         let sides = self.side.zip(other.side);

@@ -18,13 +18,10 @@ const COARSER: f64 = 2.0;
 const COARSEST: f64 = 0.025;
 /// Least ratio of spacings at which a coarser level pays.
 const LEAST: f64 = 1.5;
-/// Ratio of spacings of a detour: a garment that stays open, or crossed, at its coarsest level is sewn on a mesh that
-/// is coarser by this and carried over. Other particles jam less: they lie differently beside the seam, and fewer of
-/// them fold less.
-const DETOUR: f64 = 1.35;
 /// Spacings of the meshes on which a garment starts, metres: on the next where a seam stays open or cloth is left caught
 /// on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that starts at
-/// 25 or at 28 mm, and not at 22. So does an armpit the sleeve of a shirt under arms that hang close to the trunk.
+/// 25 or at 28 mm, and not at 22. Under arms that hang close to the trunk a shirt started at 25 mm stays open at its
+/// armpit, and one started at 22 mm closes.
 const START_MESHES: [f64; 2] = [SPACING, 0.022];
 /// Share of a stage's progress that its coarser levels take.
 pub(super) const COARSE_SHARE: f64 = 0.3;
@@ -36,7 +33,7 @@ pub(super) struct Closed {
     pub(super) gaps: Vec<Vec<f64>>,
     /// The coarser one it was made from.
     pub(super) coarse: Option<Box<Coarse>>,
-    /// Start positions of its particles, on whichever mesh its seams were drawn shut. `None` after a [`DETOUR`].
+    /// Start positions of its particles, on whichever mesh its seams were drawn shut.
     pub(super) start: Option<Vec<Vec3>>,
 }
 
@@ -66,23 +63,10 @@ impl Job {
             }
         }
         if let Some(start) = self.positioned(mesh) {
-            return self.sew_positioned(mesh, start, progress);
-        }
-        self.sew_from_topology(mesh, progress)
-    }
-
-    /// `mesh` sewn from positions that the file gives.
-    fn sew_positioned(
-        &self,
-        mesh: &ClothMesh,
-        start: Vec<Vec3>,
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Closed, SewError> {
-        let closed = self.sew_here(mesh, start.clone(), SewOptions::default(), progress)?;
-        if is_whole(mesh, &closed.sewn) {
+            let closed = self.sew_here(mesh, start.clone(), SewOptions::default(), progress)?;
             return Ok(Closed { start: Some(start), ..closed });
         }
-        Ok(self.detour(mesh, progress).unwrap_or(Closed { start: Some(start), ..closed }))
+        self.sew_from_topology(mesh, progress)
     }
 
     /// `mesh` sewn from starts that its topology gives: from the first of which it comes out whole, or else from the
@@ -158,17 +142,6 @@ impl Job {
             coarse.show(&coarse.closed.sewn.nodes, Reached::Sewn, watch);
             coarse
         })
-    }
-
-    /// `mesh` sewn by way of a slightly coarser one. None where that does not come out whole either. The coarser one is
-    /// no better a start for draping, and forgotten.
-    fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
-        let coarse = mesh::build(&self.garment, DETOUR * mesh.spacing).ok()?;
-        let start = self.positioned(&coarse)?;
-        let closed = self.sew_here(&coarse, start, SewOptions::default(), progress).ok()?;
-        let coarse = is_whole(&coarse, &closed.sewn).then_some(Coarse { mesh: coarse, closed })?;
-        let (sewn, gaps) = self.carried(&coarse, mesh)?;
-        Some(Closed { sewn, gaps, coarse: None, start: None })
     }
 
     /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one. None where it comes out torn or
@@ -304,19 +277,5 @@ mod tests {
         assert!(begun.0 > COARSEST && begun.1 == Reached::Begun, "{begun:?}");
         assert_eq!([(sewn.0, sewn.1), (draped.0, draped.1)], [(COARSEST, Reached::Sewn), (COARSEST, Reached::Draped)]);
         assert_ne!(sewn.2, draped.2, "the hem hangs elsewhere once the skirt is draped");
-    }
-
-    #[test]
-    fn a_detour_leads_to_a_whole_garment_of_the_spacing_asked_for() {
-        let job = skirt(0.016);
-        let mesh = mesh::build(&job.garment, 0.016).expect("meshed");
-        let coarse = mesh::build(&job.garment, DETOUR * 0.016).expect("meshed");
-        let closed = job.detour(&mesh, &mut |_| {}).expect("a detour");
-        assert!(is_whole(&mesh, &closed.sewn));
-        // The hem of a pencil skirt went by way of a coarser level with the toes in it.
-        assert!(!is_whole(&mesh, &Sewn { is_cut: true, ..closed.sewn.clone() }));
-        assert_eq!(closed.sewn.stitching.class.len(), mesh.flat.len());
-        assert_eq!(counts(&closed.gaps), pairs(&coarse));
-        assert!(closed.coarse.is_none());
     }
 }

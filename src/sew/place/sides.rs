@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, Stitches};
-use crate::pattern::{Garment, Piece, Place, PlaceMeaning};
+use crate::pattern::{Garment, Piece, PlaceMeaning};
 
 /// A seam is at a side of a piece where the direction out of its cloth, in the mean of unit vectors, is to that side by
 /// more than this: it runs more down than across. Shoulders do not.
@@ -42,20 +42,12 @@ pub fn same_sides(garment: &Garment, mesh: &ClothMesh) -> Vec<SameSide> {
 
 /// Whether one of two pieces is said to be at the front and the other at the back of the same part of the body.
 fn are_opposite(one: &Piece, other: &Piece) -> bool {
-    let [one, other] = [one, other].map(meanings);
+    let [one, other] = [one, other].map(Piece::meanings);
     let says = |said: &[PlaceMeaning], meaning| said.contains(&meaning);
     let differ = |meaning| says(&one, meaning) != says(&other, meaning);
     let is_faced = |said: &[PlaceMeaning]| says(said, PlaceMeaning::Front) != says(said, PlaceMeaning::Back);
     let parts = [PlaceMeaning::Trunk, PlaceMeaning::Leg, PlaceMeaning::Arm, PlaceMeaning::Neck];
     is_faced(&one) && is_faced(&other) && differ(PlaceMeaning::Front) && !parts.into_iter().any(differ)
-}
-
-/// Meanings of the words of its place.
-fn meanings(piece: &Piece) -> Vec<PlaceMeaning> {
-    match &piece.place {
-        Some(Place::Around { words }) => words.iter().map(|word| word.meaning()).collect(),
-        _ => Vec::new(),
-    }
 }
 
 /// The particle that lies behind each mesh edge of a rim, seen from outside the piece.
