@@ -18,10 +18,10 @@ const COARSER: f64 = 2.0;
 const COARSEST: f64 = 0.025;
 /// Least ratio of spacings at which a coarser level pays.
 const LEAST: f64 = 1.5;
-/// Spacings of the meshes on which a garment starts, metres: on the next where a seam stays open or cloth is left caught
-/// on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that starts at
-/// 25 or at 28 mm, and not at 22. Under arms that hang close to the trunk a shirt started at 25 mm stays open at its
-/// armpit, and one started at 22 mm closes.
+/// Spacings of the meshes on which a garment starts, metres: on the next where a seam stays open, or cloth is left
+/// caught on the body or in itself. Other particles lie elsewhere: a wrist cuts the cuff of a hooded sweatshirt that
+/// starts at 25 or at 28 mm, and not at 22. Under arms that hang close to the trunk a shirt started at 25 mm stays open
+/// at its armpit, and one started at 22 mm closes.
 const START_MESHES: [f64; 2] = [SPACING, 0.022];
 /// Share of a stage's progress that its coarser levels take.
 pub(super) const COARSE_SHARE: f64 = 0.3;
