@@ -105,7 +105,8 @@ pub(crate) fn diagnostics<'py>(py: Python<'py>, all: &[Diagnostic]) -> PyResult<
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
-        let (message, hint, text) = (in_python(&d.message), d.hint.as_deref().map(in_python), in_python(&d.to_string()));
+        let (message, hint, text) =
+            (in_python(&d.message), d.hint.as_deref().map(in_python), in_python(&d.to_string()));
         list.append(class.call1((severity, &d.file, d.line, d.column, message, hint, text))?)?;
     }
     Ok(list)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
-import concurrent.futures
 import importlib
 import json
 import os
-import socket
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -146,6 +143,8 @@ def _one(text: str, store: str, held: str, options: Options, version: str) -> di
     """A task: a function of the job's content, which may run again or twice. It ends when the batch has let go of its
     work folder."""
     if version != VERSION:
+        import socket
+
         raise ComputationError(
             f"the worker {socket.gethostname()} has toile {VERSION}, the batch is of toile {version}; "
             "install the same on all machines"
@@ -243,6 +242,10 @@ def _round(
 
 def _losses() -> tuple[type[BaseException], ...]:
     """What is raised when a worker or the scheduler is gone, not the job wrong."""
+    # These take longer to import than all of toile, and only a cluster needs them.
+    import asyncio
+    import concurrent.futures
+
     client: Any = importlib.import_module("distributed.client")
     comm: Any = importlib.import_module("distributed.comm")
     scheduler: Any = importlib.import_module("distributed.scheduler")
