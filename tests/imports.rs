@@ -346,9 +346,10 @@ fn a_second_fold_is_said() {
 /// FreeSewing's symbols, which an import of ours once left out.
 #[test]
 fn buttons_and_buttonholes_are_closures() {
-    let panel = |id: &str, x: f64, inside: &str| {
-        format!("<g id='{id}'><path class='fabric' d='M {x} 20 h 120 v 300 h -120 Z'/>{inside}</g>")
+    let high = |id: &str, x: f64, high: f64, inside: &str| {
+        format!("<g id='{id}'><path class='fabric' d='M {x} 20 h 120 v {high} h -120 Z'/>{inside}</g>")
     };
+    let panel = |id: &str, x: f64, inside: &str| high(id, x, 300.0, inside);
     let symbols = |symbol: &str, x: f64, at: &[f64]| -> String {
         at.iter().map(|y| format!("<use xlink:href='#{symbol}' x='{x}' y='{y}'/>")).collect()
     };
@@ -362,7 +363,8 @@ fn buttons_and_buttonholes_are_closures() {
         (made.file.closures.iter().map(one).collect::<Vec<_>>(), made.notes)
     };
     let left = panel("left_front", 20.0, &symbols("button", 130.0, &[220.0, 60.0, 140.0]));
-    let right = panel("right_front", 220.0, &symbols("buttonhole", 230.0, &[60.0, 140.0, 220.0]));
+    let holes = symbols("buttonhole", 230.0, &[60.0, 140.0, 220.0]);
+    let right = high("right_front", 220.0, 310.0, &holes);
     let band = panel("band", 420.0, &(symbols("snap-stud", 430.0, &[40.0]) + &symbols("snap-socket", 530.0, &[40.0])));
     let (found, notes) = closures(&(left.clone() + &right + &band));
     let down = |x: f64| vec![[x, 40.0], [x, 120.0], [x, 200.0]];
@@ -383,8 +385,12 @@ fn buttons_and_buttonholes_are_closures() {
         found.len() == 1 && (&*found[0].1, &*found[0].3) == ("front", "front") && found[0].4.is_empty(),
         "{found:?}"
     );
+    // So do those of a front that is drawn twice, left and right.
+    let found = closures(&(left.clone() + &panel("right_front", 220.0, &holes))).0;
+    assert!(found.len() == 1 && found[0].2 == down(110.0) && found[0].4.is_empty(), "{found:?}");
+    assert_eq!((&*found[0].1, &*found[0].3), ("front", "front"));
     // Nothing tells what these close: they are marks, which is said.
-    let (found, notes) = closures(&(left + &panel("right_front", 220.0, &symbols("buttonhole", 230.0, &[60.0]))));
+    let (found, notes) = closures(&(left + &high("right_front", 220.0, 310.0, &symbols("buttonhole", 230.0, &[60.0]))));
     let kinds: Vec<_> = found.iter().map(|c| (&*c.0, &*c.1, &*c.3, c.2.len())).collect();
     assert_eq!(kinds, [("button", "left_front", "", 3), ("buttonhole", "right_front", "", 1)]);
     assert!(says(&notes, &["the buttons on 'left_front' close", "'meets'"]), "{notes:?}");

@@ -76,11 +76,14 @@ def test_triangles_that_share_no_vertices_are_joined() -> None:
     loose, own = vertices[faces].reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3)
     flat = toile.flatten(loose, own, weld=0.01)
     assert len(flat.pieces) == 1 and np.abs(flat.uv - toile.flatten(vertices, faces).uv).max() < 1e-6
-    apart = toile.flatten(loose[:6], own[:2], weld=0)
+    # Two triangles of one cell.
+    cell = vertices[faces[[0, AROUND * ALONG]]].reshape(-1, 3)
+    assert len(toile.flatten(cell, own[:2], weld=0.01).pieces) == 1
+    apart = toile.flatten(cell, own[:2], weld=0)
     assert len(apart.pieces) == 2
     [advice] = [note for note in apart.notes if "joins them" in note]
     assert "; weld=0.01 joins them" in advice
-    with pytest.raises(toile.InputError, match="weld: -1.0 is no distance"):
+    with pytest.raises(toile.InputError, match="weld: -1 is no distance"):
         toile.flatten(vertices, faces, weld=-1)
     ball = np.array([[0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100]])
     with pytest.raises(toile.InputError, match="cut=True would cut") as raised:
