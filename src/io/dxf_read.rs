@@ -3,8 +3,8 @@
 //! Text files of any release are read as pairs of a group code and a value; of what they hold, polylines (with their
 //! arcs), lines, arcs, ellipses, splines, points, texts and blocks within blocks count; what else is on a pattern's
 //! layers is said to be left out. Blocks without a boundary are skipped, for programs add some of their own. Of a file
-//! that is graded, or has grade rules beside it, one size is read. Where no block is a piece, those are read that lie side by side in the drawing
-//! itself.
+//! that is graded, or has grade rules beside it, one size is read. Where no block is a piece, those are read that lie
+//! side by side in the drawing itself.
 
 use std::path::Path as FilePath;
 

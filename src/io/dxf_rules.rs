@@ -132,8 +132,8 @@ mod tests {
     use super::*;
 
     const TABLE: &str = "ANSI/AAMA VERSION: 1.0.0\nUNITS: ENGLISH\nGRADE RULE TABLE: T\nNUMBER OF SIZES: 3\n\
-                         SIZE LIST: S M L \nSAMPLE SIZE: M\nRULE: DELTA 1\n -0.5, 0.25  0,0\n 1.0,-0.5\nRULE: DELTA  7\n\
-                         0,0,0,0,0,0\nEND\n";
+                         SIZE LIST: S M L \nSAMPLE SIZE: M\nRULE: DELTA 1\n -0.5, 0.25  0,0\n 1.0,-0.5\n\
+                         RULE: DELTA  7\n0,0,0,0,0,0\nEND\n";
 
     #[test]
     fn rules_are_ways_from_the_sample_size() {

@@ -29,8 +29,8 @@ pub(super) fn decoded(bytes: &[u8]) -> (Cow<'_, str>, Option<String>) {
     (known.unwrap_or(WINDOWS_1252).decode_without_bom_handling(bytes).0, note)
 }
 
-/// The text of an SVG file, by the marks at its beginning or the encoding that its XML declares where it is not UTF-8; and
-/// what had to be assumed.
+/// The text of an SVG file, by the marks at its beginning or the encoding that its XML declares where it is not UTF-8;
+/// and what had to be assumed.
 pub(super) fn decoded_xml(bytes: &[u8]) -> (Cow<'_, str>, Option<String>) {
     let marked = Encoding::for_bom(bytes).map(|(encoding, _)| encoding).or_else(|| sixteen_bits(bytes));
     if let Some(encoding) = marked.filter(|e| [UTF_16LE, UTF_16BE].contains(e)) {

@@ -110,8 +110,8 @@ class Garment:
             body_units: Unit of the body's OBJ file.
             size: A size of the garment.
             pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
-            over: Garments that are worn over this one, from the skin outwards. All must be made for the same body, unless
-                ``body`` is given. A size holds for all of them. ``fabric`` does not say of which garment.
+            over: Garments that are worn over this one, from the skin outwards. All must be made for the same body,
+                unless ``body`` is given. A size holds for all of them. ``fabric`` does not say of which garment.
 
         Raises:
             GarmentError: The garment file has mistakes.
