@@ -2,10 +2,10 @@
 //! and lengths are those of the drawings' own numbers.
 
 use toile::digitize::{Digitized, Drawing, garment_file};
-use toile::io::dxf_read::{DxfOptions, read_dxf, read_dxf_text, read_dxf_text_as};
+use toile::io::dxf_read::{DxfOptions, read_dxf, read_dxf_text, read_dxf_text_as, read_graded_dxf_text};
 use toile::io::garment::{read_text, write};
 use toile::io::svg_read::{SvgOptions, read_svg_text, read_svg_text_as};
-use toile::pattern::{CutKind, DartShape, PieceFile, drawings};
+use toile::pattern::{AllowanceFile, CutKind, DartShape, PieceFile, drawings};
 
 /// A drawing of so many millimetres.
 fn svg(width: f64, height: f64, inside: &str) -> String {
@@ -343,6 +343,85 @@ fn a_second_fold_is_said() {
     assert!(says(&file.notes, &["'flounce'", "two folds"]), "{:?}", file.notes);
 }
 
+/// FreeSewing's symbols, which an import of ours once left out.
+#[test]
+fn buttons_and_buttonholes_are_closures() {
+    let high = |id: &str, x: f64, high: f64, inside: &str| {
+        format!("<g id='{id}'><path class='fabric' d='M {x} 20 h 120 v {high} h -120 Z'/>{inside}</g>")
+    };
+    let panel = |id: &str, x: f64, inside: &str| high(id, x, 300.0, inside);
+    let symbols = |symbol: &str, x: f64, at: &[f64]| -> String {
+        at.iter().map(|y| format!("<use xlink:href='#{symbol}' x='{x}' y='{y}'/>")).collect()
+    };
+    let closures = |inside: &str| {
+        let made = made(&read(&svg(900.0, 340.0, inside)));
+        let name = |name: &Option<toile::pattern::Located<String>>| name.as_ref().map_or("", |n| &n.value).to_owned();
+        let at = |at: &[toile::pattern::Located<[f64; 2]>]| at.iter().map(|p| p.value).collect::<Vec<_>>();
+        let one = |c: &toile::pattern::ClosureFile| {
+            (c.kind.value.clone(), name(&c.on), at(&c.at), name(&c.meets), at(&c.meets_at))
+        };
+        (made.file.closures.iter().map(one).collect::<Vec<_>>(), made.notes)
+    };
+    let left = panel("left_front", 20.0, &symbols("button", 130.0, &[220.0, 60.0, 140.0]));
+    let holes = symbols("buttonhole", 230.0, &[60.0, 140.0, 220.0]);
+    let right = high("right_front", 220.0, 310.0, &holes);
+    let band = panel("band", 420.0, &(symbols("snap-stud", 430.0, &[40.0]) + &symbols("snap-socket", 530.0, &[40.0])));
+    let (found, notes) = closures(&(left.clone() + &right + &band));
+    let down = |x: f64| vec![[x, 40.0], [x, 120.0], [x, 200.0]];
+    let both = |on: &str, meets: &str| (on.to_owned(), meets.to_owned());
+    let (front, snap) = (both("left_front", "right_front"), both("band", "band"));
+    let buttoned = ("button".to_owned(), front.0, down(110.0), front.1, down(10.0));
+    let snapped = ("snap".to_owned(), snap.0, vec![[10.0, 20.0]], snap.1, vec![[110.0, 20.0]]);
+    assert_eq!(found, [buttoned, snapped], "{notes:?}");
+    assert!(!says(&notes, &["close"]), "{notes:?}");
+    // Each of a pair of cuffs meets itself; the halves of a front meet each other.
+    let pair = |id: &str, inside: &str| panel(id, 20.0, &format!("<text x='50' y='150'>cut 1 pair</text>{inside}"));
+    let ends = symbols("button", 30.0, &[40.0]) + &symbols("buttonhole", 130.0, &[40.0]);
+    let meeting: Vec<_> = closures(&pair("cuff", &ends)).0.into_iter().map(|c| (c.1, c.3)).collect();
+    assert_eq!(meeting, [both("cuff.L", "cuff.L"), both("cuff.R", "cuff.R")]);
+    let over = symbols("button", 30.0, &[40.0, 90.0]) + &symbols("buttonhole", 30.0, &[90.0, 40.0]);
+    let found = closures(&pair("front", &over)).0;
+    assert!(
+        found.len() == 1 && (&*found[0].1, &*found[0].3) == ("front", "front") && found[0].4.is_empty(),
+        "{found:?}"
+    );
+    // So do those of a front that is drawn twice, left and right.
+    let found = closures(&(left.clone() + &panel("right_front", 220.0, &holes))).0;
+    assert!(found.len() == 1 && found[0].2 == down(110.0) && found[0].4.is_empty(), "{found:?}");
+    assert_eq!((&*found[0].1, &*found[0].3), ("front", "front"));
+    // Nothing tells what these close: they are marks, which is said.
+    let (found, notes) = closures(&(left + &high("right_front", 220.0, 310.0, &symbols("buttonhole", 230.0, &[60.0]))));
+    let kinds: Vec<_> = found.iter().map(|c| (&*c.0, &*c.1, &*c.3, c.2.len())).collect();
+    assert_eq!(kinds, [("button", "left_front", "", 3), ("buttonhole", "right_front", "", 1)]);
+    assert!(says(&notes, &["the buttons on 'left_front' close", "'meets'"]), "{notes:?}");
+}
+
+#[test]
+fn letters_of_an_svg_are_those_of_its_encoding() {
+    let room = Room::new();
+    let drawing = |encoding: &str| {
+        let inside = "<path id='R\u{fc}cken' d='M 20 20 h 120 v 300 h -120 Z'/>";
+        format!("<?xml version='1.0' encoding='{encoding}'?>\n{}", svg(200.0, 340.0, inside))
+    };
+    let utf16 = drawing("UTF-16").encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    let latin: Vec<u8> = drawing("ISO-8859-1").chars().map(|c| c as u8).collect();
+    for bytes in [[&[0xff, 0xfe], &utf16[..]].concat(), latin] {
+        let path = room.0.path().join("drawing.svg");
+        std::fs::write(&path, bytes).expect("a file");
+        let drawing = toile::io::svg_read::read_svg(&path, &SvgOptions::default()).expect("a drawing");
+        assert_areas(&drawing, &[("R\u{fc}cken", 360.0)]);
+        assert!(drawing.notes.is_empty(), "{:?}", drawing.notes);
+    }
+    // Letters that are not those of the encoding that is said are read all the same, and this is said.
+    let wrong: Vec<u8> = drawing("UTF-8").chars().map(|c| c as u8).collect();
+    std::fs::write(room.0.path().join("wrong.svg"), wrong).expect("a file");
+    let (code, said) = room.run(&["import", "svg", "wrong.svg", "-o", "wrong.yaml"]);
+    assert!(
+        code == Some(0) && said.contains("is not UTF-8") && room.text("wrong.yaml").contains("R\u{fc}cken:"),
+        "{said}"
+    );
+}
+
 // DXF
 
 /// A block with its texts and entities.
@@ -430,6 +509,104 @@ fn of_a_graded_file_the_sample_size_is_read_or_the_one_that_is_asked_for() {
         block("F", &["Piece Name: FRONT", &material], &rectangle(1, [0.0, 0.0], [200.0, 300.0]))
     };
     assert_areas(&from_dxf(&dxf(&(of("Self") + &of("Fuse")), "")), &[("FRONT", 600.0), ("FRONT_Fuse", 600.0)]);
+}
+
+/// The text of a grade rule at the point that it moves.
+fn rule(number: u32, [x, y]: [f64; 2]) -> String {
+    format!("0\nTEXT\n8\n1\n10\n{x}\n20\n{y}\n1\n# {number}\n")
+}
+
+/// A front whose right side has a corner without a rule, with the size that it is drawn in.
+fn ruled(size: &str) -> String {
+    let corners = [[0.0, 0.0], [200.0, 0.0], [210.0, 150.0], [200.0, 300.0], [0.0, 300.0]];
+    let rules: String =
+        [(1, 0), (2, 1), (3, 3), (4, 4)].map(|(number, k): (u32, usize)| rule(number, corners[k])).concat();
+    let notch = point(4, [205.0, 75.0]) + &rule(5, [205.0, 75.0]);
+    let told = format!("Size: {size}");
+    block("FRONT-M", &["Piece Name: FRONT", &told], &(line(1, true, &corners) + &rules + &notch))
+}
+
+const RULES: &str = "ANSI/AAMA VERSION: 1.0.0\r\nUNITS: METRIC\r\nGRADE RULE TABLE: SHIRT\r\nNUMBER OF SIZES: 3\r\n\
+                     SIZE LIST: S M L \r\nSAMPLE SIZE: M\r\nRULE: DELTA 1\r\n0,0 0,0 0,0\r\nRULE: DELTA 2\r\n\
+                     -10.0, 0.0  0.0, 0.0\r\n 10.0, 0.0\r\nRULE: DELTA 3\r\n-10,-5 0,0 10,6\r\nRULE: DELTA 4\r\n\
+                     0,-5 0,0 0,6\r\nRULE: DELTA 5\r\n-10,-2 0,0 10,1\r\nEND\r\n";
+
+#[test]
+fn grade_rules_make_every_size_of_one() {
+    let file = dxf(&ruled("M"), "");
+    let sized = |file: &str, rules: &str, size: &str| {
+        let options = DxfOptions { unit: None, size: Some(size.to_owned()) };
+        read_graded_dxf_text(file, rules, &options).unwrap_or_else(|e| panic!("{e}"))
+    };
+    // A corner between two rules moves by what lies between them.
+    let area = |wide: f64, high: f64| (wide * high + 0.5 * 10.0 * high) / 100.0;
+    let all = [("S", area(190.0, 295.0)), ("M", area(200.0, 300.0)), ("L", area(210.0, 306.0))];
+    for (size, area) in all {
+        assert_areas(&sized(&file, RULES, size), &[("FRONT", area)]);
+        // Drawn in another size than the sample, its ways are counted from there.
+        let from_small = RULES.replace("SAMPLE SIZE: M", "SAMPLE SIZE: S");
+        assert_areas(&sized(&file, &from_small, size), &[("FRONT", area)]);
+    }
+    let large = sized(&file, RULES, "L");
+    assert_eq!((notches(&large), large.sizes.join(" ")), (vec![([215.0, 230.0], false)], "S M L".to_owned()));
+    assert!(says(&large.notes, &["the rules beside the file have the sizes S, M, L: L is read"]), "{:?}", large.notes);
+    // The sample size without being asked, and nothing else changes.
+    let sample = read_graded_dxf_text(&file, RULES, &DxfOptions::default()).expect("a piece");
+    assert_areas(&sample, &[("FRONT", area(200.0, 300.0))]);
+    // Turned and mirrored as it is inserted, also by a grade reference line; in inches; with a sewing line.
+    let insert = "0\nINSERT\n8\n1\n2\nFRONT-M\n10\n0\n20\n0\n41\n-1\n50\n90\n";
+    assert_areas(&sized(&dxf(&ruled("M"), insert), RULES, "L"), &[("FRONT", area(210.0, 306.0))]);
+    let upright = ruled("M").replace("0\nENDBLK", &(line(5, false, &[[50.0, 50.0], [50.0, 250.0]]) + "0\nENDBLK"));
+    let wide = RULES.replace("RULE: DELTA 3\r\n-10,-5 0,0 10,6", "RULE: DELTA 3\r\n0,0 0,0 6,-10");
+    let wide =
+        wide.replace("-10.0, 0.0  0.0, 0.0\r\n 10.0, 0.0", "0,0 0,0 0,-10").replace("0,-5 0,0 0,6", "0,0 0,0 6,0");
+    assert_areas(&sized(&dxf(&upright, ""), &wide, "L"), &[("FRONT", area(210.0, 306.0))]);
+    let inches = RULES.replace("METRIC", "ENGLISH").replace("10,6", "0.39370079,0.23622047");
+    let inches = inches.replace("\r\n 10.0, 0.0", "\r\n0.39370079, 0.0").replace("0,0 0,6", "0,0 0,0.23622047");
+    assert_areas(&sized(&file, &inches, "L"), &[("FRONT", area(210.0, 306.0))]);
+    let inner = [[10.0, 10.0], [190.0, 10.0], [200.0, 150.0], [190.0, 290.0], [10.0, 290.0]];
+    let sewn = ruled("M").replace("0\nENDBLK", &(line(14, true, &inner) + "0\nENDBLK"));
+    let inside = |size: &str| areas(&sized(&dxf(&sewn, ""), RULES, size))[0].1;
+    let allowance = [("L", area(210.0, 306.0)), ("M", area(200.0, 300.0))].map(|(size, area)| area - inside(size));
+    assert!((allowance[0] / allowance[1] - 1.0).abs() < 0.05 && allowance[1] > 50.0, "{allowance:?}");
+    // Its distance from the cut line is that of the drawn size, edge by edge.
+    let widths = |size: &str| {
+        let piece = made(&sized(&dxf(&sewn, ""), RULES, size)).file.pieces.remove(0);
+        let Some(AllowanceFile::Edges(edges)) = piece.allowance else { panic!("{:?}", piece.allowance) };
+        edges.iter().map(|(_, width)| width.value.width.number).collect::<Vec<f64>>()
+    };
+    let (large, sample) = (widths("L"), widths("M"));
+    let alike = large.len() == sample.len() && large.iter().zip(&sample).all(|(a, b)| (a - b).abs() <= 0.1);
+    assert!(alike, "{large:?} {sample:?}");
+}
+
+#[test]
+fn grade_rules_lie_beside_their_file() {
+    let room = Room::new();
+    room.put("shirt.dxf", &dxf(&(ruled("M") + &block("TIE", &[], &rectangle(1, [0.0, 0.0], [80.0, 900.0]))), ""));
+    let import =
+        |more: &[&str]| room.run(&[&["import", "dxf", "shirt.dxf", "-o", "out.yaml", "--force"], more].concat());
+    let (code, said) = import(&["--size", "L"]);
+    assert!(code == Some(2) && said.contains("no size 'L'"), "{said}");
+    room.put("shirt.RUL", RULES);
+    let (code, said) = import(&["--size", "all"]);
+    assert!(code == Some(0) && said.contains("'TIE' does not say") | said.contains("'TIE' has no points"), "{said}");
+    assert!(room.text("out_S.yaml").contains("L 190 295") && room.text("out_L.yaml").contains("L 210 306"));
+    let (code, said) = import(&["--size", "XXL"]);
+    assert!(code == Some(2) && said.contains("its sizes are S, M, L"), "{said}");
+    // A table of another name is found by what the file calls it.
+    std::fs::remove_file(room.0.path().join("shirt.RUL")).expect("removed");
+    let named = "0\nTEXT\n8\n1\n10\n0\n20\n-60\n1\nGrade Rule Table: SHIRT_2\n";
+    room.put("shirt.dxf", &dxf(&ruled("M"), named));
+    room.put("SHIRT_2.rul", &RULES.replace("10,6", "10"));
+    let (code, said) = import(&["--size", "L"]);
+    let wrong = "SHIRT_2.rul: line 12: rule 3 has 5 numbers; two for each of the 3 sizes are expected";
+    assert!(code == Some(2) && said.contains(wrong), "{said}");
+    // A rule that the table has not is said.
+    room.put("SHIRT_2.rul", &RULES.replace("RULE: DELTA 5", "RULE: DELTA 6"));
+    let (code, said) = import(&["--size", "L"]);
+    assert!(code == Some(0) && said.contains("'FRONT' names rules that the table has not (5)"), "{said}");
+    assert!(room.text("out.yaml").contains("L 210 306"));
 }
 
 #[test]

@@ -21,27 +21,47 @@ fn or_else(made: PyResult<PyErr>) -> PyErr {
     made.unwrap_or_else(|error| error)
 }
 
-/// Options of the command line that messages name, and what Python calls them.
-const OPTIONS: [(&str, &str); 14] = [
+/// Advice with options of the command line, and what it is in Python. Nothing stands for what Python does not have.
+const ADVICE: [(&str, &str); 8] = [
+    ("; choose another folder with -o", "; choose another"),
+    ("--up y", "up=(0, 1, 0)"),
+    ("--cut auto", "cut=True"),
+    ("; --cut A,B,… cuts along a way of your own", ""),
+    ("--weld joins", "weld=0.01 joins"),
+    ("--weld 0", "weld=0"),
+    (", and --color strain shows where", ""),
+    ("--units says another, as 'pt' (72 to the inch) or 'mm'", "units says another, as 25.4 / 72 for points"),
+];
+
+/// Options of the command line that messages name, and what Python calls them. A name that begins with another one
+/// comes before that.
+const OPTIONS: [(&str, &str); 16] = [
     ("--body-units", "body_units"),
     ("--body", "body"),
     ("--fabric", "fabric"),
     ("--spacing", "spacing"),
+    ("--pressure-bands", "pressure_bands"),
     ("--from", "start"),
+    ("--size", "size"),
+    ("--drapes", "drapes"),
     ("--units", "units"),
     ("--cut", "cut"),
-    ("--darts", "darts"),
+    ("--dart", "darts"),
     ("--mode", "mode"),
-    ("--up", "up"),
     ("--threads", "threads"),
     ("--memory", "memory"),
+    ("--time", "time"),
     ("--jobs", "side_by_side"),
-    ("; choose another folder with -o", "; choose another"),
 ];
 
 /// A message of the library in Python's words.
 pub(crate) fn in_python(message: &str) -> String {
-    OPTIONS.iter().fold(message.to_owned(), |text, (option, name)| text.replace(option, name))
+    ADVICE.iter().chain(&OPTIONS).fold(message.to_owned(), |text, (option, name)| text.replace(option, name))
+}
+
+/// Messages of the library in Python's words.
+pub(crate) fn all_in_python(messages: &[String]) -> Vec<String> {
+    messages.iter().map(|message| in_python(message)).collect()
 }
 
 /// `toile.InputError`
@@ -69,7 +89,7 @@ fn computation(py: Python<'_>, message: String, files: &[ResultFile]) -> PyResul
 /// `toile.GarmentError` with its diagnostics.
 pub(crate) fn refused(py: Python<'_>, refused: &Refused) -> PyErr {
     let made = || {
-        let error = exception(py, "GarmentError", refused.to_string())?;
+        let error = exception(py, "GarmentError", in_python(&refused.to_string()))?;
         error.value(py).setattr("diagnostics", diagnostics(py, &refused.diagnostics)?)?;
         Ok(error)
     };
@@ -85,7 +105,9 @@ pub(crate) fn diagnostics<'py>(py: Python<'py>, all: &[Diagnostic]) -> PyResult<
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
-        list.append(class.call1((severity, &d.file, d.line, d.column, &d.message, &d.hint, d.to_string()))?)?;
+        let (message, hint, text) =
+            (in_python(&d.message), d.hint.as_deref().map(in_python), in_python(&d.to_string()));
+        list.append(class.call1((severity, &d.file, d.line, d.column, message, hint, text))?)?;
     }
     Ok(list)
 }

@@ -102,7 +102,8 @@ impl Fit {
     /// Why the wants cannot be had, and problems that the altered garment has and the one before had not.
     #[getter]
     fn problems(&self) -> Vec<String> {
-        self.found.refused.iter().chain(&self.found.problems).cloned().collect()
+        let all = self.found.refused.iter().chain(&self.found.problems);
+        all.map(|problem| errors::in_python(problem)).collect()
     }
 
     /// The figures, as of ``toile fit --json``: the wants before and after, the alterations and their amounts.

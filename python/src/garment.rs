@@ -7,7 +7,7 @@ use pyo3::types::{PyDict, PyList};
 use toile::digitize::{garment_file, sewn};
 use toile::input::{stem, whole};
 use toile::io::body::floor_of;
-use toile::io::garment::{Variant, change_text, write};
+use toile::io::garment::{Loaded, Variant, change_text, write};
 use toile::io::garmentcode::{self, Wearer};
 use toile::io::svg_read::{SvgOptions, read_svg};
 use toile::mannequin::Measures;
@@ -120,7 +120,7 @@ impl Garment {
         let said = if seams { sewn(&made.file, &made.suggestions) } else { made.file.clone() };
         let mut notes = drawing.complaints();
         notes.extend(drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).cloned());
-        Self::imported(py, path.with_file_name(format!("{stem}.yaml")), &said, notes)
+        Self::imported(py, path.with_file_name(format!("{stem}.yaml")), &said, errors::all_in_python(&notes))
     }
 
     /// The short name, which is that of the file.
@@ -201,6 +201,8 @@ impl Garment {
     ///     body_units: Unit of the body's OBJ file.
     ///     size: A size of the garment.
     ///     pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
+    ///     over: Garments that are worn over this one, from the skin outwards. All must be made for the same body,
+    ///         unless ``body`` is given. A size holds for all of them. ``fabric`` does not say of which garment.
     ///
     /// Raises:
     ///     GarmentError: The garment file has mistakes.
@@ -208,7 +210,7 @@ impl Garment {
     ///     ComputationError: It cannot be sewn, draped or flattened.
     #[pyo3(signature = (
         body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None,
-        pressure_bands=None
+        pressure_bands=None, over=Vec::new()
     ))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn make(
@@ -223,14 +225,15 @@ impl Garment {
         body_units: Option<&str>,
         size: Option<String>,
         pressure_bands: Option<(f64, f64)>,
+        over: Vec<PyRef<'_, Self>>,
     ) -> PyResult<Outcome> {
         let wanted = overrides(py, body, fabric, spacing, body_units)?;
         let bands = options::bands(py, pressure_bands)?;
-        let wanted = Overrides { size, bands, alter: self.alter.clone(), ..wanted };
+        let wanted = Overrides { size, bands, ..wanted };
         let start = start.map(|start| start.earlier(py)).transpose()?;
-        let (file, text) = (self.file.clone(), self.text.clone());
+        let worn = std::iter::once(self).chain(over.iter().map(|outer| &**outer)).map(Said::of).collect::<Vec<_>>();
         let made = with_signals(py, threads, progress.as_ref(), move |telling| {
-            make(&file, &text, &wanted, start.as_ref(), &mut |stage, share| telling.tell(stage, share))
+            make(&worn, &wanted, start.as_ref(), &mut |stage, share| telling.tell(stage, share))
         })?;
         made.map(Outcome::new).map_err(|failed| errors::pipeline(py, &failed.error, &failed.files))
     }
@@ -336,14 +339,37 @@ impl From<PipelineError> for Failed {
     }
 }
 
+/// A garment for another thread.
+struct Said {
+    file: PathBuf,
+    text: String,
+    alter: Vec<String>,
+}
+
+impl Said {
+    fn of(garment: &Garment) -> Self {
+        Self { file: garment.file.clone(), text: garment.text.clone(), alter: garment.alter.clone() }
+    }
+
+    fn read(&self, size: Option<&str>) -> std::result::Result<Loaded, PipelineError> {
+        read_text(&self.file, &self.text, Variant { size, alter: &self.alter })
+    }
+}
+
+/// Makes garments that are worn over one another, from the skin outwards.
 fn make(
-    file: &Path,
-    text: &str,
+    worn: &[Said],
     overrides: &Overrides,
     start: Option<&Earlier>,
     tell: &mut dyn FnMut(&str, f64),
 ) -> std::result::Result<Made, Failed> {
-    let job = Job::new(file, read_text(file, text, overrides.variant())?, overrides)?;
+    let (mut read, mut inputs) = (Vec::new(), Vec::new());
+    for said in worn {
+        let loaded = said.read(overrides.size.as_deref())?;
+        inputs.extend(toile::pipeline::inputs(&said.file, &loaded.garment, overrides));
+        read.push((said.file.clone(), loaded));
+    }
+    let job = Job::dressed(read, overrides)?;
     let mut run = match start {
         None => Run::new(&job),
         Some(Earlier::Folder(folder)) => Run::continued(&job, folder)?,
@@ -364,6 +390,6 @@ fn make(
         arrays: run.arrays().unwrap_or_default(),
         in_bounds: !found.iter().any(|problem| problem.out_of_bounds),
         notes: job.notes.clone(),
-        inputs: toile::pipeline::inputs(file, &job.garment, overrides),
+        inputs,
     })
 }

@@ -22,6 +22,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _toile(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("__build__", toile::batch::BUILD)?;
     module.add_class::<garment::Garment>()?;
     module.add_class::<result::Result>()?;
     module.add_class::<fit::Fit>()?;

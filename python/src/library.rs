@@ -50,6 +50,11 @@ pub(crate) fn unit(symbol: &str) -> Result<LengthUnit, String> {
     })
 }
 
+/// What is said of a body, in the words of `Body.load`.
+fn in_words(message: &str) -> String {
+    errors::in_python(&message.replace("--body-units", "units"))
+}
+
 /// A body, its library name or its file.
 pub(crate) struct GivenBody(Given<Body>);
 
@@ -131,7 +136,7 @@ impl Body {
         let unit = units.as_deref().map(self::unit).transpose().map_err(|why| errors::input(py, why))?;
         let wanted = name.clone();
         let body = with_signals(py, None, None, move |_| load_body(&wanted, unit))?;
-        let body = Arc::new(body.map_err(|e| errors::input(py, e))?);
+        let body = Arc::new(body.map_err(|e| errors::input(py, in_words(&e.to_string())))?);
         Ok(Self { body, name, units, measures: Measures::default() })
     }
 
@@ -208,7 +213,7 @@ impl Body {
     /// What was guessed or done when it was read: its unit, its stance, crossings.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.body.notes.clone()
+        self.body.notes.iter().map(|note| in_words(note)).collect()
     }
 
     fn __repr__(&self) -> String {

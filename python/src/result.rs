@@ -142,7 +142,7 @@ impl Result {
     /// What its author may not have meant so.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.0.notes.clone()
+        errors::all_in_python(&self.0.notes)
     }
 
     /// Writes the files of ``toile make``, whole or not at all: the same bytes, but for times in the report.

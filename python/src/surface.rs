@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use toile::flatten::{FlattenOptions, Mode};
 use toile::geometry::Vec3;
 use toile::io::obj_read::ObjFaces;
-use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
+use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, Weld, flatten_faces};
 
 use crate::arguments::Count;
 use crate::errors;
@@ -91,6 +91,8 @@ fn surface(
 ///     up: Direction that lies along the grain (y, or z where the surface runs along z).
 ///     cut: Cut the surface open where it is needed.
 ///     darts: Number of darts at most that are cut where the strain passes 10 %; into a round piece as many even ones.
+///     weld: Join vertices within so many millimetres of each other, none with 0. By default those of different parts
+///         within 0.01 mm are joined.
 ///     threads: Number of threads (all processors by default). Results do not depend on it.
 ///     name: Its name in the report.
 ///
@@ -99,7 +101,8 @@ fn surface(
 ///     ComputationError: It could not be computed.
 #[pyfunction]
 #[pyo3(signature = (
-    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=Count(0), threads=None, name="surface"
+    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=Count(0), weld=None, threads=None,
+    name="surface"
 ))]
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn flatten(
@@ -111,6 +114,7 @@ pub(crate) fn flatten(
     up: Option<[f64; 3]>,
     cut: bool,
     darts: Count,
+    weld: Option<f64>,
     threads: Option<Count>,
     name: &str,
 ) -> PyResult<Flat> {
@@ -120,9 +124,13 @@ pub(crate) fn flatten(
     if up.is_some_and(|up| !up.norm().is_normal()) {
         return Err(wrong("up: a direction of three numbers is expected, such as (0, 1, 0)".into()));
     }
+    if let Some(mm) = weld.filter(|mm| !(*mm >= 0.0 && mm.is_finite())) {
+        return Err(wrong(format!("weld: {mm} is no distance in millimetres, such as 0.01")));
+    }
     let options = SurfaceOptions {
         unit: units.map(unit).transpose().map_err(wrong)?,
         up: up.map(|up| up.normalize()),
+        weld: weld.map_or_else(Weld::default, |mm| Weld::Within(mm / 1e3)),
         cuts: Cuts { auto: cut, ..Cuts::default() },
         darts: (darts > 0).then_some(Darts::Count(darts)),
         flatten: FlattenOptions { mode: self::mode(mode).map_err(wrong)?, ..FlattenOptions::default() },
@@ -185,7 +193,7 @@ impl Flat {
     /// What was done or guessed on the way.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        errors::all_in_python(&self.notes)
     }
 
     /// The figures, as in ``report.json`` of ``toile flatten``.

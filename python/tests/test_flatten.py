@@ -68,3 +68,24 @@ def test_lists_are_taken_and_nonsense_is_told() -> None:
             toile.flatten(vertices + far, faces)
     with pytest.raises(toile.InputError, match="known are balanced"):
         toile.flatten(vertices, faces, mode="smooth")
+
+
+def test_triangles_that_share_no_vertices_are_joined() -> None:
+    vertices, faces = half_cylinder()
+    # As an STL has it: every triangle with corners of its own.
+    loose, own = vertices[faces].reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3)
+    flat = toile.flatten(loose, own, weld=0.01)
+    assert len(flat.pieces) == 1 and np.abs(flat.uv - toile.flatten(vertices, faces).uv).max() < 1e-6
+    # Two triangles of one cell.
+    cell = vertices[faces[[0, AROUND * ALONG]]].reshape(-1, 3)
+    assert len(toile.flatten(cell, own[:2], weld=0.01).pieces) == 1
+    apart = toile.flatten(cell, own[:2], weld=0)
+    assert len(apart.pieces) == 2
+    [advice] = [note for note in apart.notes if "joins them" in note]
+    assert "; weld=0.01 joins them" in advice
+    with pytest.raises(toile.InputError, match="weld: -1 is no distance"):
+        toile.flatten(vertices, faces, weld=-1)
+    ball = np.array([[0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100]])
+    with pytest.raises(toile.InputError, match="cut=True would cut") as raised:
+        toile.flatten(ball, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    assert "--" not in str(raised.value)

@@ -145,6 +145,29 @@ def test_a_size_is_that_of_the_command_line(skirt: Path, tmp_path: Path) -> None
     assert obj(tmp_path / "ours") == obj(tmp_path / "theirs")
 
 
+def test_garments_are_worn_over_one_another(skirt: Path, tmp_path: Path) -> None:
+    wide = skirt.read_text().replace("200 0", "215 0").replace("290 300", "320 300")
+    (tmp_path / "over.yaml").write_text(wide)
+    inner, outer = toile.Garment.load(skirt), toile.Garment.load(tmp_path / "over.yaml")
+    made = inner.make(over=[outer], spacing=COARSE)
+    assert made.pieces == ["skirt/front", "skirt/back", "over/front", "over/back"]
+    made.save(tmp_path / "ours")
+    command("make", skirt, tmp_path / "over.yaml", "--spacing", COARSE, "-o", tmp_path / "theirs")
+    assert obj(tmp_path / "ours") == obj(tmp_path / "theirs")
+    # Every garment keeps its own alterations.
+    longer = outer.alter({"lengthen": ["front", "back"], "at": 200, "by": 60})
+    below = inner.make(over=[longer], spacing=COARSE)
+    assert below.vertices[:, 1].min() < made.vertices[:, 1].min() - 30
+    # The same as a job of a batch.
+    store, job = tmp_path / "store", {"garment": [inner, outer], "spacing": COARSE}
+    [line] = toile.batch([job], store=store)
+    assert obj(store / line["folder"]) == obj(tmp_path / "ours")
+    with pytest.raises(toile.InputError, match="is altered; save it"):
+        toile.batch([{**job, "garment": [inner, longer]}], store=store)
+    with pytest.raises(toile.InputError, match="^fabric does not say of which garment"):
+        inner.make(over=[outer], fabric="denim", spacing=COARSE)
+
+
 def test_progress_goes_on_a_bar(skirt: Path) -> None:
     tqdm = pytest.importorskip("tqdm", reason="tqdm is not installed")
     with open(os.devnull, "w") as nowhere, tqdm.tqdm(total=1, file=nowhere) as bar:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,12 @@ import pytest
 import toile
 
 HERE = Path(__file__).parents[1]
+SOURCES = HERE.parent / "src"
+# Sources whose messages Python never says: the command line and the studio, printing, DXF, `check --mesh`. Those of
+# batches stand in the index, which the command line shares.
+UNSAID = ["cli", "studio", "cutting", "batch", "io/pdf_write", "io/dxf_text.rs", "io/dxf_sizes.rs", "pipeline/judged.rs"]
+# Options that Python's arrays and defaults never come to: they have no texture.
+NEVER_MEANT = {"--no-texture-seams"}
 
 
 def test_the_stubs_name_what_there_is() -> None:
@@ -42,3 +49,16 @@ def test_mypy_accepts_the_stubs() -> None:
     pytest.importorskip("mypy", reason="mypy is not installed")
     run = subprocess.run([sys.executable, "-m", "mypy"], cwd=HERE, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout
+
+
+def test_messages_name_no_option_that_python_does_not_have() -> None:
+    table = (HERE / "src" / "errors.rs").read_text(encoding="utf-8")
+    known = set(re.findall(r'"[^"]*?(--[a-z][a-z-]*)', table))
+    named: set[str] = set()
+    for file in sorted(SOURCES.rglob("*.rs")):
+        if any(file.is_relative_to(SOURCES / unsaid) for unsaid in UNSAID):
+            continue
+        own = file.read_text(encoding="utf-8").partition("#[cfg(test)]")[0]
+        lines = [line for line in own.splitlines() if not line.lstrip().startswith("//")]
+        named |= set(re.findall(r"--[a-z][a-z-]*", "\n".join(lines)))
+    assert "--spacing" in named and named - known - NEVER_MEANT == set()

@@ -1,4 +1,4 @@
-//! The key of a job: a hash of its content and of toile's version.
+//! The key of a job: a hash of its content and of toile's build.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fmt;
@@ -22,8 +22,12 @@ const LONGEST_PATH: usize = 4096;
 /// A garment names a fabric, the fabric a curve. Files that name one another in a circle end here.
 const DEEPEST: usize = 4;
 
+/// The build of toile: a hash of the sources that it is compiled from, with its fabrics and mannequins. The command and
+/// the Python package of the same sources have the same.
+pub const BUILD: &str = env!("TOILE_BUILD");
+
 /// The inputs of a job: the names and contents of its garment files and of all that they name, its body and
-/// fabric, its options, and toile's version. Folders are left out, so that a job keeps its key when it is moved.
+/// fabric, its options, and toile's build. Folders are left out, so that a job keeps its key when it is moved.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct JobKey(String);
 
@@ -69,8 +73,12 @@ fn hex(bytes: &[u8]) -> String {
 impl JobKey {
     /// The key of a job as its files are now.
     pub fn of(job: &BatchJob, digests: &Digests) -> Self {
+        Self::of_build(job, digests, BUILD)
+    }
+
+    fn of_build(job: &BatchJob, digests: &Digests, build: &str) -> Self {
         let mut content = Content(Sha256::new());
-        content.say("toile", env!("CARGO_PKG_VERSION"));
+        content.say("toile", build);
         for garment in &job.garment {
             content.file("garment", garment, digests);
         }
@@ -154,4 +162,18 @@ fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
         (!name.is_empty() && name.len() <= LONGEST_PATH && path.is_file()).then(|| (name.to_owned(), path))
     };
     texts.into_iter().filter_map(beside).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_build_has_other_keys() {
+        assert!(BUILD.len() == 16 && BUILD.bytes().all(|byte| byte.is_ascii_hexdigit()), "{BUILD}");
+        let (job, digests) = (BatchJob::options(), Digests::default());
+        let key = |build| JobKey::of_build(&job, &digests, build);
+        assert_eq!(key(BUILD), JobKey::of(&job, &digests));
+        assert_ne!(key("another"), key(BUILD));
+    }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! jobs ─▶ key ─────────────────▶ process ─────────▶ seal ──────────▶ index
 //!         hash of the content     toile make into    one rename into   one line a job
-//!         and toile's version     a work folder      STORE/KEY
+//!         and toile's build       a work folder      STORE/KEY
 //! ```
 //!
 //! The folders of the store are the truth, and `index.jsonl` is written from them. A job is done when its folder is
@@ -30,7 +30,7 @@ use serde::Serialize;
 pub use error::{BatchError, Mistake};
 pub use folder::{Garments, garments_of_folder};
 pub use job::{BatchJob, check_jobs, parse_job, read_jobs};
-pub use key::{Digests, JobKey};
+pub use key::{BUILD, Digests, JobKey};
 pub use process::{
     ASKED_TO_END, Limits, PANICKED, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker,
 };

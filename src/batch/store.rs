@@ -19,7 +19,7 @@ use super::IndexLine;
 use super::error::BatchError;
 use super::inputs::{Input, keep_inputs};
 use super::job::BatchJob;
-use super::key::JobKey;
+use super::key::{BUILD, JobKey};
 use crate::io::files::write_all;
 
 /// The index.
@@ -66,6 +66,9 @@ pub struct Record {
 #[derive(Serialize, Deserialize)]
 struct WrittenRecord {
     toile: String,
+    /// Absent in records of toile before it knew its build.
+    #[serde(default)]
+    build: String,
     key: String,
     state: JobState,
     exit: Option<i32>,
@@ -156,6 +159,7 @@ impl Store {
         name_places(folder, &target).map_err(failed)?;
         let written = WrittenRecord {
             toile: env!("CARGO_PKG_VERSION").to_owned(),
+            build: BUILD.to_owned(),
             key: record.key.to_string(),
             state: record.state,
             exit: record.exit,

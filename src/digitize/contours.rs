@@ -10,7 +10,7 @@ use super::said::{Said, said};
 use super::sizes::{are_sizes, sizes};
 use super::sorted::Sorted;
 use super::trimmed::{parts_within, trimmed};
-use super::{Drawing, ImportedNotch, InnerLine, Remark, Role, Stroke, ToldNotch, Traced};
+use super::{Drawing, Fastener, ImportedNotch, InnerLine, Remark, Role, Stroke, ToldNotch, Traced};
 use crate::geometry::{Path, Vec2};
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -272,7 +272,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<O
         let middle = middle(stroke);
         let ends = [stroke.path.start(), stroke.path.end()];
         let near = |p: Vec2| outlines.iter().any(|o| o.nearest(p).1 <= NEAR);
-        let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill);
+        let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill | Role::Fastener(_));
         // At a sharp corner the mark of a notch that is told may lie beyond both edges but for one point.
         let told = || stroke.notch.is_some() && points_of(&stroke.path).into_iter().any(near);
         // A neck opening may interrupt a fold in its middle.
@@ -290,6 +290,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<O
             Role::Fold if traced.mirror.is_some() => traced.more_folds.push(ends),
             Role::Fold => traced.mirror = Some(ends),
             Role::Drill => traced.points.push(middle),
+            Role::Fastener(kind) => traced.fasteners.push(Fastener { at: stroke.path.start(), kind }),
             Role::Notch => traced.notches.push(notch(stroke, &surface.edges, &outlines)),
             Role::Unknown if short && ends.iter().any(|&p| near(p)) && crosses(&stroke.path, &outlines) => {
                 traced.notches.push(notch(stroke, &surface.edges, &outlines));

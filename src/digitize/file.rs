@@ -2,6 +2,7 @@
 
 use super::darts::{ClosedDart, closed};
 use super::edges::{FileEdge, edges, nearest_edge};
+use super::fasteners::{Fastened, closures};
 use super::fish_eyes::taken;
 use super::folds::{fold_edge, merged, opened};
 use super::holes::Hole;
@@ -9,12 +10,13 @@ use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;
+use super::stated::{at_no_place, file_point};
 use super::suggest::{Guess, Outline, Suggestion, suggest};
 use super::{Material, Traced};
 use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Corner, CutKind, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located,
-    NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Spot, Value,
+    NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Value,
 };
 
 /// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
@@ -49,7 +51,7 @@ pub struct Digitized {
 pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
-    let (mut pieces, mut outlines, mut told) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut pieces, mut outlines, mut told, mut fastened) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let traced = paired(traced);
     let fabrics = declared(&traced, &mut notes);
     for piece in &traced {
@@ -62,7 +64,9 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
             ));
         }
         let piece = whole.as_ref().unwrap_or(piece);
-        let (mut file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
+        let piece = piece.at_origin();
+        let (mut file, edges) = piece_file(&name, &piece, &mut notes);
+        fastened.push(Fastened::new(&file, &piece.fasteners));
         // The only fabric is that of every piece.
         file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
         let fold = fold_of(&file).map(str::to_owned);
@@ -98,7 +102,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         fabrics: fabrics.into_iter().map(|d| (at_no_place(d.name), at_no_place(Value::Text(d.cloth)))).collect(),
         pieces,
         seams: Vec::new(),
-        closures: Vec::new(),
+        closures: closures(&fastened, &mut notes),
         free: vec![at_no_place("*.*".to_owned())],
         tests: Vec::new(),
     };
@@ -119,10 +123,6 @@ fn copies(piece: &PieceFile, count: usize, names: &mut Vec<String>, notes: &mut 
         notes.push(format!("'{name}' is cut {count} times as a pair, {count} left and {count} right: {cut} like it"));
     }
     copies
-}
-
-fn at_no_place<T>(value: T) -> Located<T> {
-    Located::new(value, Spot::default())
 }
 
 /// A name made of the characters that a garment file allows: letters, digits, `_` and `-`.
@@ -253,16 +253,6 @@ fn untold(name: &str, piece: &Traced) -> Option<String> {
              fold its 'fold: 180', elastic its 'kind: elastic' and 'ratio', and write darts and pleats as such"
         )
     })
-}
-
-/// Ten nanometres in a millimetre file: nobody's rounding, and short.
-fn rounded(x: f64) -> f64 {
-    let r = (x * 1e5).round() / 1e5;
-    if r == 0.0 { 0.0 } else { r }
-}
-
-fn file_point(p: Vec2) -> [f64; 2] {
-    [rounded(p.x * MM), rounded(p.y * MM)]
 }
 
 fn outline_file(edges: &[FileEdge]) -> OutlineFile {

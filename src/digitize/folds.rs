@@ -5,7 +5,7 @@ use nalgebra::Matrix2;
 use super::Traced;
 use super::edges::{FileEdge, edges};
 use super::holes::Hole;
-use super::{ImportedNotch, InnerLine};
+use super::{Fastener, ImportedNotch, InnerLine};
 use crate::geometry::{Path, Vec2, mirrored};
 
 /// A fold's ends are so near to those of an edge (metres).
@@ -126,6 +126,11 @@ pub(super) fn opened(piece: &Traced) -> Option<Traced> {
         holes,
         lines: piece.lines.iter().flat_map(both).collect(),
         points: piece.points.iter().flat_map(twice).collect(),
+        fasteners: piece
+            .fasteners
+            .iter()
+            .flat_map(|f| twice(&f.at).into_iter().map(|at| Fastener { at, ..*f }))
+            .collect(),
         grain: piece.grain.or(piece.mirror),
         notches: piece.notches.iter().flat_map(|n| twice(&n.at)).map(|at| ImportedNotch { at, told: None }).collect(),
         mirror: None,

@@ -9,6 +9,7 @@ mod contour;
 mod contours;
 mod darts;
 mod edges;
+mod fasteners;
 mod file;
 mod fish_eyes;
 mod folds;
@@ -26,6 +27,7 @@ mod sizes;
 mod smooth;
 mod sorted;
 mod spikes;
+mod stated;
 mod suggest;
 mod trimmed;
 
@@ -113,6 +115,28 @@ pub struct Remark {
     pub text: String,
 }
 
+/// A button or what it goes through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fastener {
+    /// Its place.
+    pub at: Vec2,
+    /// Its kind.
+    pub kind: FastenerKind,
+}
+
+/// Kind of a fastener.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FastenerKind {
+    /// A button.
+    Button,
+    /// A buttonhole.
+    Buttonhole,
+    /// The stud of a snap.
+    Stud,
+    /// The socket of a snap.
+    Socket,
+}
+
 /// Role of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -138,6 +162,8 @@ pub enum Role {
     PleatPlace,
     /// A ring round a point that is marked through all layers.
     Drill,
+    /// A point, as a line without length to speak of, where something is buttoned.
+    Fastener(FastenerKind),
 }
 
 /// Contents of a drawing.
@@ -197,6 +223,8 @@ pub struct Traced {
     pub lines: Vec<InnerLine>,
     /// Points inside: drill holes.
     pub points: Vec<Vec2>,
+    /// Buttons and buttonholes.
+    pub fasteners: Vec<Fastener>,
     /// Tail and head of the grain line.
     pub grain: Option<[Vec2; 2]>,
     /// Notches.
@@ -241,6 +269,7 @@ impl Traced {
             holes: self.holes.iter().map(|h| h.moved(path)).collect(),
             lines: self.lines.iter().map(|l| InnerLine { path: path(&l.path), ..l.clone() }).collect(),
             points: self.points.iter().map(|p| p + shift).collect(),
+            fasteners: self.fasteners.iter().map(|f| Fastener { at: f.at + shift, ..*f }).collect(),
             grain: self.grain.map(|g| g.map(|p| p + shift)),
             notches: self.notches.iter().map(|n| ImportedNotch { at: n.at + shift, told: n.told.clone() }).collect(),
             pleats: self.pleats.iter().map(|ends| ends.map(|p| p + shift)).collect(),

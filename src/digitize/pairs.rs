@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix2;
 
-use super::Traced;
+use super::{Fastener, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{CutKind, Side};
 
@@ -25,12 +25,21 @@ pub(super) fn paired(pieces: &[Traced]) -> Vec<Traced> {
             Some(k) => {
                 left[k] = None;
                 let (side, stem) = sided(&piece.name);
-                Traced { name: stem, cut_how: Some(CutKind::Pair), drawn: side, ..piece.clone() }
+                let twins = pieces[k].fasteners.iter().filter_map(|f| mirrored(f, &pieces[k], piece));
+                let fasteners = piece.fasteners.iter().copied().chain(twins).collect();
+                Traced { name: stem, cut_how: Some(CutKind::Pair), drawn: side, fasteners, ..piece.clone() }
             }
             None => piece.clone(),
         });
     }
     out
+}
+
+/// A fastener of a piece where it is on its mirror image: buttonholes of one half lie over buttons of the other.
+fn mirrored(fastener: &Fastener, piece: &Traced, image: &Traced) -> Option<Fastener> {
+    let mirror = Matrix2::new(-1.0, 0.0, 0.0, 1.0);
+    let from = low_corner(&piece.outline()?.mapped(mirror, Vec2::zeros()));
+    Some(Fastener { at: mirror * fastener.at - from + low_corner(&image.outline()?), ..*fastener })
 }
 
 fn are_twins(one: &Traced, other: &Traced) -> bool {

@@ -49,6 +49,16 @@ pub enum DxfError {
         /// Those there are.
         known: String,
     },
+    /// A table of grade rules that cannot be read.
+    #[error("{file}: line {line}: {why}; export the rules again, or read the file without them: move them away")]
+    Rules {
+        /// The file of the rules.
+        file: String,
+        /// From 1.
+        line: usize,
+        /// The mistake and what is expected.
+        why: String,
+    },
     /// Blocks within blocks without end.
     #[error("block '{block}' holds itself, or others more than {most} deep")]
     TooDeep {

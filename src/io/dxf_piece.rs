@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use super::dxf_block::{Block, LayerPoint, Named, longest_first, whole};
+use super::dxf_grade::rule_of;
 use super::dxf_notches::{self, once};
 use super::dxf_rim::{ON_RIM, Rim, Saying, closed_by, closing, is_on};
 use super::dxf_told::{Told, is_on_slit, read_notch, told_of};
@@ -99,7 +100,8 @@ impl Block<'_> {
     /// A text that is no statement, as drawings without blocks name their pieces.
     fn plain_text(&self) -> Option<&str> {
         let words = self.texts.iter().map(|t| t.words.trim());
-        words.filter(|_| self.name.is_empty()).find(|w| !w.is_empty() && !w.contains(':'))
+        let plain = |w: &&str| !w.is_empty() && !w.contains(':') && rule_of(w).is_none();
+        words.filter(|_| self.name.is_empty()).find(plain)
     }
 
     /// The sewing line of AAMA, on the layer of inner lines, which follows the cut line all round; and its lines.

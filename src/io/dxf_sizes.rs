@@ -1,7 +1,8 @@
-//! The sizes of a graded file: told by texts, or by the names of blocks alone.
+//! The sizes of a graded file: told by texts, by the names of blocks alone, or by a table of grade rules beside it.
 
 use super::dxf_block::Block;
 use super::dxf_error::{DxfError, SHOWN};
+use super::dxf_rules::RuleTable;
 use super::dxf_text::{Entity, after, letters};
 use crate::digitize::{Traced, size_of};
 use crate::input::shown;
@@ -15,19 +16,34 @@ const SURELY_A_SIZE: u32 = 26;
 pub(super) struct FileSizes {
     names: Vec<String>,
     sample: Option<String>,
-    /// Whether they are told by the names of blocks.
-    by_names: bool,
+    told_by: ToldBy,
+}
+
+/// What tells the sizes.
+#[derive(PartialEq)]
+enum ToldBy {
+    /// The texts of blocks.
+    Texts,
+    /// The names of blocks.
+    Names,
+    /// Grade rules, which make every size of the blocks.
+    Rules,
 }
 
 impl FileSizes {
-    pub(super) fn new(blocks: &[Block], entities: &[Entity]) -> Self {
-        let pieces: Vec<&Block> = blocks.iter().filter(|b| b.has_boundary()).collect();
+    pub(super) fn new(blocks: &[&Block], entities: &[Entity]) -> Self {
+        let pieces: Vec<&Block> = blocks.iter().copied().filter(|b| b.has_boundary()).collect();
         let told = distinct(pieces.iter().filter_map(|b| b.text("size:")));
-        let (names, by_names) = if told.len() > 1 { (told, false) } else { (by_names(&pieces), true) };
+        let (names, told_by) = if told.len() > 1 { (told, ToldBy::Texts) } else { (by_names(&pieces), ToldBy::Names) };
         let texts = entities.iter().filter(|e| ["TEXT", "MTEXT"].contains(&e.kind)).filter_map(|e| e.value(1));
         let sample = texts.filter_map(|t| SAMPLE.iter().find_map(|key| after(t, key))).find(|s| !s.is_empty());
         let sample = sample.map(letters).and_then(|s| names.iter().find(|n| n.eq_ignore_ascii_case(&s)).cloned());
-        Self { names, sample, by_names }
+        Self { names, sample, told_by }
+    }
+
+    /// The sizes of a table of rules.
+    pub(super) fn ruled(table: &RuleTable) -> Self {
+        Self { names: table.sizes.clone(), sample: table.sample.clone(), told_by: ToldBy::Rules }
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -57,12 +73,17 @@ impl FileSizes {
             None => ", the middle one, for it does not say its sample size",
         };
         let names = self.names.join(", ");
-        Some(format!("the file has the sizes {names}: {chosen} is read{why}; --size takes another, or all"))
+        let has = if self.told_by == ToldBy::Rules { "the rules beside the file have" } else { "the file has" };
+        Some(format!("{has} the sizes {names}: {chosen} is read{why}; --size takes another, or all"))
     }
 
     /// Whether a block is of a size, or of none.
     pub(super) fn is_of(&self, block: &Block, chosen: Option<&str>) -> bool {
-        let own = if self.by_names { split(block.name()).map(|(_, size)| size) } else { block.text("size:") };
+        let own = match self.told_by {
+            ToldBy::Names => split(block.name()).map(|(_, size)| size),
+            ToldBy::Texts => block.text("size:"),
+            ToldBy::Rules => None,
+        };
         let own = own.filter(|size| self.names.iter().any(|name| name == size));
         chosen.is_none_or(|chosen| own.is_none_or(|own| own == chosen))
     }

@@ -43,9 +43,11 @@ fn of_obj(text: &str) -> Result<Vec<Vec<Vec3>>, Fault> {
             let wrong = |word: &str| (line, format!("there is no vertex '{word}' above; there are {}", places.len()));
             let run: Vec<usize> =
                 rest.split_whitespace().map(|w| index(w).ok_or_else(|| wrong(w))).collect::<Result<_, _>>()?;
-            match lines.last_mut() {
-                Some(last) if last.last() == run.first() => last.extend(&run[1..]),
-                _ => lines.push(run),
+            match (lines.last_mut(), run.split_first()) {
+                (Some(last), Some((first, rest))) if last.last() == Some(first) => last.extend(rest),
+                (_, Some(_)) => lines.push(run),
+                // An element without vertices is no line.
+                (_, None) => {}
             }
         }
     }
@@ -84,6 +86,7 @@ mod tests {
         let two = vec![vec![Vec3::x(), Vec3::y(), Vec3::z()], vec![Vec3::zeros(), Vec3::y()]];
         let obj = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\nl 1 2\nl 2 3\nl 4 2\n";
         assert_eq!(of_obj(obj), Ok(two.clone()));
+        assert_eq!(of_obj(&obj.replace("l 1 2", "l \nl \nl 1 2")), Ok(two.clone()));
         assert_eq!(of_points("1 0 0\n0, 1, 0\n0 0 1\n\n0 0 0 # here\n0 1 0\n"), Ok(two.clone()));
         assert_eq!(of_points("- - [1, 0, 0]\n  - [0, 1, 0]\n  - [0, 0, 1]\n- - [0, 0, 0]\n  - [0, 1, 0]\n"), Ok(two));
         assert_eq!(of_points("1 0 0\n1 2\n").map_err(|fault| fault.0), Err(2));

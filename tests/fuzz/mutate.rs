@@ -54,6 +54,28 @@ impl Mutator {
         text.into_iter().collect()
     }
 
+    /// A seed with one to eight bytes, stretches or numbers of it changed, lost or repeated.
+    pub(crate) fn mutated_bytes(&mut self, seeds: &[&[u8]]) -> Vec<u8> {
+        let mut bytes = seeds[self.below(seeds.len())].to_vec();
+        for _ in 0..=self.below(8) {
+            let range = self.range(bytes.len(), 24);
+            match self.below(5) {
+                0 => drop(bytes.drain(range)),
+                1 => {
+                    let piece = bytes[range.clone()].to_vec();
+                    bytes.splice(range.start..range.start, piece.repeat(1 + self.below(20)));
+                }
+                2 => bytes.splice(range.start..range.start, [0xff; 4]).for_each(drop),
+                3 => bytes[range].fill(0),
+                _ => bytes.iter_mut().skip(range.start).take(1).for_each(|byte| *byte ^= 1 << (self.next() % 8)),
+            }
+            if bytes.is_empty() {
+                break;
+            }
+        }
+        bytes
+    }
+
     fn range(&mut self, length: usize, most: usize) -> std::ops::Range<usize> {
         let from = self.below(length);
         from..(from + 1 + self.below(most)).min(length)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
-import concurrent.futures
 import importlib
 import json
 import os
-import socket
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -24,6 +21,9 @@ PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
 
 # Objects that stand for a key of a job, each for the key that is named as its class.
 OBJECTS = (_toile.Garment, _toile.Body, _toile.Fabric)
+
+# What a worker must have, too, so that its results are those of this machine.
+VERSION = f"{_toile.__version__} (build {_toile.__build__})"
 
 # Time limit (s), memory limit (MiB), threads, and whether failures are tried again.
 Options = tuple[float | None, int | None, int, bool]
@@ -55,9 +55,9 @@ def batch(
         jobs: A list of jobs in a file (one JSON object a line), a folder whose garment files are made, or dicts with
             the keys of such lines: ``garment`` (a file, or several from the skin outwards), ``body``, ``body_units``,
             ``measures``, ``fabric``, ``spacing`` (mm), ``size``, ``alter``, ``pressure_bands`` (kPa), ``id``. Paths are
-            relative to the file, or to the current folder. A dict may have a :class:`Garment`, a :class:`Body` and a
-            :class:`Fabric` as its garment, body and fabric, if they have files. Measures of such a body and alterations
-            of such a garment hold beside those that the job says.
+            relative to the file, or to the current folder. A dict may have a :class:`Garment` (or a list of them), a
+            :class:`Body` and a :class:`Fabric` as its garment, body and fabric, if they have files. Measures of such a
+            body and alterations of such a garment hold beside those that the job says.
         client: A ``distributed.Client``. Each job is then a task of its cluster, whose machines must see the garments
             and the store under the same paths. What a worker or the scheduler loses when it is killed is handed in
             again when it is back. Without a client the jobs run on this machine.
@@ -105,6 +105,8 @@ def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
                 raise InputError(f"{key!r} of a job cannot be {value!r}")
             plain |= _of_garment(value) if isinstance(value, _toile.Garment) else value._job
     said = {key: value for key, value in job.items() if not isinstance(value, OBJECTS)}
+    if isinstance(said.get("garment"), (list, tuple)):
+        said["garment"] = [_of_outfit(worn) for worn in said["garment"]]
     if isinstance(said.get("measures"), Mapping):
         said["measures"] = {**plain.get("measures", {}), **said["measures"]}
     alter = said.get("alter")
@@ -127,12 +129,24 @@ def _of_garment(garment: _toile.Garment) -> dict[str, Any]:
     return {"garment": os.fspath(file), "alter": alter}
 
 
+def _of_outfit(worn: Any) -> Any:
+    """The file of one garment of several, which no alterations of its own can follow in a job."""
+    if not isinstance(worn, _toile.Garment):
+        return worn
+    plain = _of_garment(worn)
+    if plain["alter"]:
+        raise InputError(f"{worn!r} is altered; save it, and give the job the file's name")
+    return plain["garment"]
+
+
 def _one(text: str, store: str, held: str, options: Options, version: str) -> dict[str, Any]:
     """A task: a function of the job's content, which may run again or twice. It ends when the batch has let go of its
     work folder."""
-    if version != _toile.__version__:
+    if version != VERSION:
+        import socket
+
         raise ComputationError(
-            f"the worker {socket.gethostname()} has toile {_toile.__version__}, the batch is of toile {version}; "
+            f"the worker {socket.gethostname()} has toile {VERSION}, the batch is of toile {version}; "
             "install the same on all machines"
         )
     time, memory, threads, retry = options
@@ -201,12 +215,11 @@ def _round(
     """Hands jobs in and waits for them. Gives those that got lost with a worker or the scheduler."""
     distributed: Any = importlib.import_module("distributed")
     store, held, options = where
-    version = _toile.__version__
     # A task whose worker is killed runs again elsewhere; pure=False keeps an old result from being taken for a new
     # one after the store was cleared.
     try:
         futures = client.map(
-            _one, texts, store=store, held=held, options=options, version=version, pure=False, retries=2
+            _one, texts, store=store, held=held, options=options, version=VERSION, pure=False, retries=2
         )
     except _losses():
         return texts
@@ -229,6 +242,10 @@ def _round(
 
 def _losses() -> tuple[type[BaseException], ...]:
     """What is raised when a worker or the scheduler is gone, not the job wrong."""
+    # These take longer to import than all of toile, and only a cluster needs them.
+    import asyncio
+    import concurrent.futures
+
     client: Any = importlib.import_module("distributed.client")
     comm: Any = importlib.import_module("distributed.comm")
     scheduler: Any = importlib.import_module("distributed.scheduler")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import json
 import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +67,8 @@ def to_parquet(store: str | os.PathLike[str], file: str | os.PathLike[str] | Non
         InputError: There is no such index.
         ImportError: pyarrow is not installed.
     """
+    import tempfile
+
     try:
         arrow: Any = importlib.import_module("pyarrow")
         parquet: Any = importlib.import_module("pyarrow.parquet")

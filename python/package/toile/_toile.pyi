@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ._errors import Diagnostic
 
 __version__: str
+__build__: str
 
 _Path = str | os.PathLike[str]
 _Units = Literal["mm", "cm", "dm", "m", "in"]
@@ -94,6 +95,7 @@ class Garment:
         body_units: _Units | None = None,
         size: str | None = None,
         pressure_bands: tuple[float, float] | None = None,
+        over: Sequence[Garment] = (),
     ) -> Result:
         """Sews, drapes and flattens the garment, as the command ``toile make``.
 
@@ -108,6 +110,8 @@ class Garment:
             body_units: Unit of the body's OBJ file.
             size: A size of the garment.
             pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
+            over: Garments that are worn over this one, from the skin outwards. All must be made for the same body,
+                unless ``body`` is given. A size holds for all of them. ``fabric`` does not say of which garment.
 
         Raises:
             GarmentError: The garment file has mistakes.
@@ -400,6 +404,7 @@ def flatten(
     up: tuple[float, float, float] | None = None,
     cut: bool = False,
     darts: int = 0,
+    weld: float | None = None,
     threads: int | None = None,
     name: str = "surface",
 ) -> Flat:
@@ -413,6 +418,8 @@ def flatten(
         up: Direction that lies along the grain (y, or z where the surface runs along z).
         cut: Cut the surface open where it is needed.
         darts: Number of darts at most that are cut where the strain passes 10 %; into a round piece as many even ones.
+        weld: Join vertices within so many millimetres of each other, none with 0. By default those of different parts
+            within 0.01 mm are joined.
         threads: Number of threads (all processors by default). Results do not depend on it.
         name: Its name in the report.
 

@@ -23,7 +23,10 @@ use self::shapes::commands;
 use self::style::Styles;
 use self::viewport::{ElementFrame, Viewport, inner, sheet};
 use self::xml::parsed;
-use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes};
+use super::encoding::decoded_xml;
+use crate::digitize::{
+    Drawing, FastenerKind, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes,
+};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Corner, LineKind, NotchKind, Side};
@@ -51,6 +54,14 @@ const NOT_DRAWN: [&str; 9] =
 /// Classes of what is no line of the pattern.
 const SKIPPED: [&str; 11] =
     ["drawn", "grid", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
+
+/// FreeSewing's symbols of buttons and what they go through. One that is called as another begins comes before that.
+const FASTENERS: [(&str, FastenerKind); 4] = [
+    ("#buttonhole", FastenerKind::Buttonhole),
+    ("#button", FastenerKind::Button),
+    ("#snap-stud", FastenerKind::Stud),
+    ("#snap-socket", FastenerKind::Socket),
+];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -113,7 +124,11 @@ pub struct SvgOptions {
 /// # Errors
 /// [`SvgError`].
 pub fn read_svg(path: &FilePath, options: &SvgOptions) -> Result<Drawing, SvgError> {
-    read_svg_text_as(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?), options)
+    let bytes = bytes(path, MOST_BYTES)?;
+    let (text, note) = decoded_xml(&bytes);
+    let mut drawing = read_svg_text_as(&text, options)?;
+    drawing.notes.extend(note);
+    Ok(drawing)
 }
 
 /// Reads the pieces of an SVG text.
@@ -470,7 +485,12 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     if has("drill") {
         return Some(Role::Drill);
     }
-    // Of symbols only notches tell something about the outline; others are logos and buttons.
+    if node.tag_name().name() == "use"
+        && let Some((_, kind)) = FASTENERS.iter().find(|(symbol, _)| refers(symbol))
+    {
+        return Some(Role::Fastener(*kind));
+    }
+    // Other symbols are logos.
     if has("fold") || SKIPPED.iter().any(|w| has(w)) || ["text", "use"].contains(&node.tag_name().name()) {
         return None;
     }
