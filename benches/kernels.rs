@@ -12,7 +12,7 @@ use toile::dynamics::{GRIP, StepError, World};
 use toile::geometry::{Mat3, Vec3};
 use toile::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 use toile::pipeline::Job;
-use toile::sew::place::place;
+use toile::sew::start::start;
 use toile::sew::{SewOptions, Sewn, sew, sewn_world};
 
 const GARMENT: &str = "tests/data/skirt.yaml";
@@ -29,8 +29,9 @@ const TRUST: f64 = 1.5e-3;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = common::criterion();
     let job = common::job(GARMENT, SPACING)?;
-    let start = place(&job.garment, &job.mesh, &job.body, &job.collider)?;
-    let sewn = sew(&job.cut(), &job.collider, start, &SewOptions::default(), &mut |_| {})?;
+    let at = start(&job.garment, &job.mesh, &job.body, &job.collider)?;
+    let joined = SewOptions { joined: true, ..SewOptions::default() };
+    let sewn = sew(&job.cut(), &job.collider, at, &joined, &mut |_| {})?;
     factor(&mut criterion, &hung(&job, &sewn)?)?;
     detection(&mut criterion, &job, &hung(&job, &sewn)?);
     steps(&mut criterion, &job, &sewn);

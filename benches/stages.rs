@@ -13,7 +13,7 @@ use toile::flatten::{FlattenOptions, flatten_garment};
 use toile::geometry::Vec3;
 use toile::mesh::build;
 use toile::pipeline::Job;
-use toile::sew::place::place;
+use toile::sew::start::start;
 use toile::sew::{SewOptions, Sewn, sew};
 
 const GARMENT: &str = "patterns/child_dress.yaml";
@@ -23,16 +23,16 @@ const SPACING: f64 = 0.025;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = common::criterion();
     let job = common::job(GARMENT, SPACING)?;
-    let start = place(&job.garment, &job.mesh, &job.body, &job.collider)?;
-    let sewn = sewn(&job, &start)?;
+    let at = start(&job.garment, &job.mesh, &job.body, &job.collider)?;
+    let sewn = sewn(&job, &at)?;
     let draped = draped(&job, &sewn)?;
     let mut group = criterion.benchmark_group("stages");
     let named = |stage: &str| BenchmarkId::new(stage, format!("{} at {} mm", job.garment.name, 1e3 * SPACING));
     group.bench_function(named("mesh"), |b| b.iter(|| build(black_box(&job.garment), SPACING)));
-    group.bench_function(named("place"), |b| {
-        b.iter(|| place(&job.garment, black_box(&job.mesh), &job.body, &job.collider));
+    group.bench_function(named("start"), |b| {
+        b.iter(|| start(&job.garment, black_box(&job.mesh), &job.body, &job.collider));
     });
-    group.bench_function(named("sew"), |b| b.iter(|| self::sewn(&job, black_box(&start)).is_ok()));
+    group.bench_function(named("sew"), |b| b.iter(|| self::sewn(&job, black_box(&at)).is_ok()));
     group.bench_function(named("drape"), |b| b.iter(|| self::draped(&job, black_box(&sewn)).is_ok()));
     group.bench_function(named("flatten"), |b| {
         b.iter(|| {
@@ -44,8 +44,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn sewn(job: &Job, start: &[Vec3]) -> Result<Sewn, Box<dyn Error>> {
-    Ok(sew(&job.cut(), &job.collider, start.to_vec(), &SewOptions::default(), &mut |_| {})?)
+fn sewn(job: &Job, at: &[Vec3]) -> Result<Sewn, Box<dyn Error>> {
+    let joined = SewOptions { joined: true, ..SewOptions::default() };
+    Ok(sew(&job.cut(), &job.collider, at.to_vec(), &joined, &mut |_| {})?)
 }
 
 /// Positions of all particles.
