@@ -71,7 +71,7 @@ pub(super) fn check_places(
     let Some(start) = positioned(&loaded.garment, mesh) else {
         return check_start(loaded, mesh, body, findings);
     };
-    doubt_places(loaded, mesh, &start, findings);
+    doubt_places(loaded, mesh, &start, |_, _| true, findings);
     for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
         let Some(Place::At { .. }) = piece.place else { continue };
         if let Some(deepest) = left_inside(collider, &start[cut.particles.clone()]) {
@@ -96,7 +96,8 @@ fn check_start(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &m
     let mesh = own.as_ref().unwrap_or(mesh);
     let Sketch { at, doubt, words, .. } = sketch(garment, mesh, body);
     match at {
-        Ok(at) => doubt_places(loaded, mesh, &at, findings),
+        // Before it is inflated cloth of all layers is in one place.
+        Ok(at) => doubt_places(loaded, mesh, &at, |one, other| one.level() == other.level(), findings),
         // A pattern may be looked at before it is whole.
         Err(error) => findings.warn(culprit(loaded, &error), Problem::Place(error.to_string())),
     }
@@ -106,11 +107,20 @@ fn check_start(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &m
     }
 }
 
-/// Warns of pieces that start in the same place with nothing that leads them apart.
-fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mut Findings) {
+/// Warns of pairs of pieces that count and start in the same place with nothing that leads them apart.
+fn doubt_places(
+    loaded: &Loaded,
+    mesh: &ClothMesh,
+    start: &[Vec3],
+    counts: impl Fn(&Piece, &Piece) -> bool,
+    findings: &mut Findings,
+) {
     let mut told: Vec<[&str; 2]> = Vec::new();
     for (pair, _) in in_one_place(mesh, start) {
         let [one, other] = pair.map(|number| &loaded.garment.pieces[number]);
+        if !counts(one, other) {
+            continue;
+        }
         let names = [one.drawn_as.as_str(), other.drawn_as.as_str()];
         if !told.contains(&names) {
             told.push(names);

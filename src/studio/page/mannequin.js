@@ -35,6 +35,6 @@ function drawFigure(piece, cover, covers, act) {
     click: () => act({ do: "place", piece: piece.name, words: [] }) }, "By its seams");
   none.disabled = piece.place === null;
   return [element("p", { class: "soft" }, piece.place === null
-    ? `Where ${piece.name} goes is worked out from its name and its seams.` : `${piece.name} goes to: ${piece.place}.`),
+    ? `Where ${piece.name} goes is worked out from its seams.` : `${piece.name} goes to: ${piece.place}.`),
   element("div", { class: "row", role: "group", "aria-label": "What the piece covers" }, ...sides, none), figure];
 }
