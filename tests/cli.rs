@@ -322,14 +322,7 @@ fn a_garment_too_small_ends_with_3_and_leaves_its_last_state() {
 #[test]
 fn a_seam_that_stays_open_ends_with_3_and_is_shown_open() {
     let room = Room::new();
-    // The arms are between the front and the back.
-    let sheets = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    \
-                  place: {at: [-300, 1250, 250]}\n    grain: [[10, 10], [10, 490]]\n    \
-                  outline: {start: 0 0, top: L 600 0, right: L 600 500, hem: L 0 500, left: L 0 0}\n  \
-                  back: {like: front, place: {at: [300, 1250, -250], turn: [0, 180, 0]}}\n\
-                  seams:\n  left: {sew: front.right, to: back.left}\n  right: {sew: front.left, to: back.right}\n\
-                  free: ['*.top', '*.hem']\n";
-    room.put("sheets.yaml", sheets);
+    room.put("sheets.yaml", include_str!("data/arms_between.yaml"));
     let run = room.run(&["make", "sheets.yaml", "-o", "out", "--spacing", "25"]);
     run.ends(3).says(&["still open by", "the last state is in"]);
     assert_eq!(room.names("out"), ["garment.png", "sewn.obj"]);

@@ -6,11 +6,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use toile::geometry::{Path as Curve, TriMesh, Vec2, Vec3};
+use toile::pattern::Problem;
 use toile::picture::{
     HEIGHT, PatternEdge, PatternPiece, PictureError, PictureLayout, Scale, Scene, Specimen, Turning, ViewSide, WIDTH,
     draw, draw_pattern, draw_sheet, draw_turning, rim_lines, seam_color,
 };
-use toile::pipeline::{StartPicture, check, start_picture};
+use toile::pipeline::{Checked, StartPicture, check, start_picture};
 
 /// A tube of rings, each given by centre, half width and half depth; closed at both ends on demand.
 fn tube(rings: &[(Vec3, f64, f64)], around: u32, closed: bool) -> TriMesh {
@@ -341,6 +342,10 @@ fn a_start_is_drawn_with_the_rim_of_every_opening_in_a_colour_of_its_own() {
 
 /// A tube as wide as a skirt and as a poncho; `place` is what its front says.
 fn start_of_tube(place: &str) -> StartPicture {
+    start_picture(&[checked_tube(place)]).expect("drawn")
+}
+
+fn checked_tube(place: &str) -> Checked {
     let text = format!(
         "garment: 1\nname: Tube\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  one:\n    \
          place: {place}\n    \
@@ -352,7 +357,7 @@ fn start_of_tube(place: &str) -> StartPicture {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("tube.yaml");
     std::fs::write(&file, text).expect("written");
-    start_picture(&[check(&file, Some(0.025)).unwrap_or_else(|refused| panic!("{refused}"))]).expect("drawn")
+    check(&file, Some(0.025)).unwrap_or_else(|refused| panic!("{refused}"))
 }
 
 #[test]
@@ -366,6 +371,11 @@ fn a_dealing_in_doubt_is_drawn_and_both_dealings_are_told_with_the_words_that_se
     let said = &start.shown.words[0];
     assert_eq!((said.piece.as_str(), said.word.as_str(), said.dealing), ("one", "hip", "first"));
     assert!(start.shown.text().contains("the first is settled by 'place: hip' for one"), "{}", start.shown.text());
+    let warnings = checked_tube("front torso").loaded.warnings;
+    let told: Vec<_> = warnings.iter().filter(|d| matches!(d.problem, Problem::WornInTwoWays { .. })).collect();
+    let [told] = told[..] else { panic!("{warnings:?}") };
+    assert!(told.message.starts_with("it is not clear how the garment is worn"), "{told}");
+    assert!(told.hint.as_deref().is_some_and(|hint| hint.contains("'place: hip' for one")), "{told}");
     let settled = start_of_tube("hip").shown;
     assert!(settled.clear && settled.words.is_empty(), "{settled:?}");
     assert_eq!(settled.openings, start.shown.openings);

@@ -133,15 +133,9 @@ fn a_body_without_parts_says_so_and_how_positions_count() {
 /// A front and a back that the file puts before and behind the arms.
 #[test]
 fn a_seam_with_an_arm_between_its_edges_says_so() {
-    let text = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    \
-                place: {at: [-300, 1250, 250]}\n    grain: [[10, 10], [10, 490]]\n    \
-                outline: {start: 0 0, top: L 600 0, right: L 600 500, hem: L 0 500, left: L 0 0}\n  \
-                back: {like: front, place: {at: [300, 1250, -250], turn: [0, 180, 0]}}\n\
-                seams:\n  left: {sew: front.right, to: back.left}\n  right: {sew: front.left, to: back.right}\n\
-                free: ['*.top', '*.hem']\n";
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/arms_between.yaml");
     let overrides = Overrides { spacing: Some(0.025), ..Overrides::default() };
-    let garment = read_text("sheets", "sheets.yaml", text).expect("a garment");
-    let job = Job::new(Path::new("sheets.yaml"), garment, &overrides).expect("a job");
+    let job = Job::new(&file, read(&file).expect("a garment"), &overrides).expect("a job");
     let error = Run::new(&job).sew(&mut |_, _| {}).expect_err("an arm is in the way");
     assert!(!error.is_input() && error.has_remedy());
     let said = error.to_string();

@@ -19,7 +19,7 @@ pub(super) struct FileSizes {
     told_by: ToldBy,
 }
 
-/// What tells the sizes.
+/// The statements that tell the sizes.
 #[derive(PartialEq)]
 enum ToldBy {
     /// The texts of blocks.

@@ -153,7 +153,7 @@ impl Piece {
         matches!(self.place, Some(Place::At { .. }))
     }
 
-    /// Meanings of the words of its place. What a piece is called means nothing.
+    /// Meanings of the words of its place. Its name means nothing.
     pub fn meanings(&self) -> Vec<PlaceMeaning> {
         match &self.place {
             Some(Place::Around { words }) => words.iter().map(|word| word.meaning()).collect(),

@@ -286,9 +286,9 @@ pub enum Problem {
     UpsideDown { seam: String, tube: String },
     #[error("seam '{seam}' joins the {side} side of '{piece}' to the {side} side of '{to}', each seen from outside")]
     SameSide { seam: String, piece: String, to: String, side: &'static str },
-    /// `words` has a piece, a word for it, and the way that this settles: 0 for the first.
+    /// `settling` says which words of `place` settle it.
     #[error("{openings}; it is put on the first way")]
-    WornInTwoWays { openings: String, words: Vec<(String, &'static str, usize)> },
+    WornInTwoWays { openings: String, settling: String },
     #[error("'{one}' and '{other}' start in one place, and nothing leads them apart")]
     OnePlace { one: String, other: String, copies: bool },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
@@ -425,7 +425,7 @@ impl Problem {
                 "pieces side by side meet right to left: if '{to}' shows the wearer's other half, write 'drawn: R' \
                  into it (or take that out where it is wrong); or one of the two is drawn upside down"
             ),
-            Self::WornInTwoWays { words, .. } => settled_by(words),
+            Self::WornInTwoWays { settling, .. } => settling.clone(),
             Self::OnePlace { copies: true, other, .. } => {
                 format!("draw '{other}' as a piece of its own (like: ...) with another place or layer, or cut one only")
             }
@@ -487,16 +487,4 @@ impl Problem {
         };
         Some(hint)
     }
-}
-
-/// The words of `place` that settle how a garment is worn: pieces with a word and the way that it settles.
-fn settled_by(words: &[(String, &'static str, usize)]) -> String {
-    let of_way = |number: usize| {
-        let own = words.iter().filter(move |(_, _, way)| *way == number);
-        own.map(|(piece, word, _)| format!("'place: {word}' for '{piece}'")).collect::<Vec<_>>().join(" or ")
-    };
-    let ways = [("first", of_way(0)), ("second", of_way(1))];
-    let said = ways.iter().filter(|(_, words)| !words.is_empty()).map(|(way, words)| format!("the {way} is {words}"));
-    let said = said.collect::<Vec<_>>().join("; ");
-    if said.is_empty() { "give the pieces at these openings a place".to_owned() } else { said }
 }

@@ -1,6 +1,7 @@
 //! Whether a garment suits its body before cloth moves: its size, and where its pieces start.
 
 use super::across::in_one_place;
+use super::settling::{WordShown, settling};
 use crate::contact::Collider;
 use crate::geometry::{Vec2, Vec3, box_of, range_of};
 use crate::io::garment::Loaded;
@@ -102,8 +103,9 @@ fn check_start(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &m
         Err(error) => findings.warn(culprit(loaded, &error), Problem::Place(error.to_string())),
     }
     if let Some(doubt) = doubt {
-        let words = words.iter().map(|said| (said.piece.clone(), said.word.name(), said.way)).collect();
-        findings.warn(loaded.file.version.at, Problem::WornInTwoWays { openings: doubt.to_string(), words });
+        let words: Vec<WordShown> = words.iter().map(WordShown::new).collect();
+        let settling = settling(&words).join("; ");
+        findings.warn(loaded.file.version.at, Problem::WornInTwoWays { openings: doubt.to_string(), settling });
     }
 }
 

@@ -32,6 +32,7 @@ mod problems;
 mod results;
 mod run;
 mod saved;
+mod settling;
 mod start_picture;
 mod surface;
 mod tight;
@@ -55,7 +56,8 @@ pub use pattern_picture::pattern_picture;
 pub use problems::{ResultProblem, problems};
 pub use results::{Color, PictureOptions, ResultFile, json_text};
 pub use run::{Progress, Run};
-pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
+pub use settling::WordShown;
+pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, start_picture};
 pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FailedReport, FlatCorners,
     FlatSurface, HalvingReport, Limit, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces, flatten_surface,

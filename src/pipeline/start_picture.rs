@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::error::PipelineError;
 use super::material::Checked;
+use super::settling::{WordShown, settling};
 use crate::dynamics::identity_nodes;
 use crate::geometry::{MM, TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Mannequin};
@@ -13,7 +14,7 @@ use crate::mesh::{self, ClothMesh};
 use crate::pattern::{Garment, outfit};
 use crate::picture::{Dressed, StartMarks, draw_start, opening_color, pixels_of};
 use crate::sew::place::{PlaceError, positioned};
-use crate::sew::start::{CLEAR, SPACING, Settling, Sketch, SketchedOpening, sketch};
+use crate::sew::start::{CLEAR, SPACING, Sketch, SketchedOpening, sketch};
 use crate::sew::{Stance, Stitching};
 
 /// A picture of a garment's start, with its legend.
@@ -76,20 +77,6 @@ pub struct DoubtShown {
     /// And in the other.
     pub second: String,
 }
-
-/// A word of `place` that makes one of the two best dealings clear.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WordShown {
-    /// The piece that it is for.
-    pub piece: String,
-    /// The word.
-    pub word: String,
-    /// `first` or `second`.
-    pub dealing: &'static str,
-}
-
-/// Names of the two best dealings.
-const DEALINGS: [&str; 2] = ["first", "second"];
 
 /// Draws the start of a garment, or of an outfit from the skin outwards, on the body that its first file names: joined
 /// at its seams, round the body's axes, before it is inflated. Pieces with positions of their own are drawn there.
@@ -178,18 +165,13 @@ impl StartShown {
             first: o.ways[0].to_string(),
             second: o.ways[1].to_string(),
         });
-        let word = |said: &Settling| WordShown {
-            piece: said.piece.clone(),
-            word: said.word.name().into(),
-            dealing: DEALINGS[said.way],
-        };
         Self {
             placed,
             openings: sketch.openings.iter().map(opening).collect(),
             margin: Some(sketch.margin).filter(|margin| margin.is_finite()),
             clear: sketch.doubt.is_none(),
             doubts: doubts.collect(),
-            words: sketch.words.iter().map(word).collect(),
+            words: sketch.words.iter().map(WordShown::new).collect(),
         }
     }
 
@@ -205,16 +187,7 @@ impl StartShown {
         out.extend(self.doubts.iter().map(|o| {
             format!("  {:.0} mm at {}: first {}; second {}", o.length, o.edges.join(", "), o.first, o.second)
         }));
-        for dealing in DEALINGS {
-            let words = self.words.iter().filter(|w| w.dealing == dealing);
-            let words: Vec<String> = words.map(|w| format!("'place: {}' for {}", w.word, w.piece)).collect();
-            if !words.is_empty() {
-                out.push(format!("  the {dealing} is settled by {}", words.join(", or ")));
-            }
-        }
-        if self.words.is_empty() {
-            out.push("  no single word of 'place' settles it: give several pieces a place".into());
-        }
+        out.extend(settling(&self.words).iter().map(|line| format!("  {line}")));
         out
     }
 

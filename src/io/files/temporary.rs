@@ -1,4 +1,4 @@
-//! Files under temporary names, and the list of what an interrupt has to undo.
+//! Files under temporary names, and the list of changes that an interrupt has to undo.
 
 use std::fs;
 use std::io::{ErrorKind, Write};
@@ -14,7 +14,7 @@ use super::error::WriteError;
 /// unregistered and no set half renamed.
 static REGISTRY: Mutex<Registry> = Mutex::new(Registry { temporary: Vec::new(), previous: Vec::new() });
 
-/// What an interrupt has to undo.
+/// The changes that an interrupt has to undo.
 pub(super) struct Registry {
     /// Temporary files that exist now.
     temporary: Vec<PathBuf>,
@@ -56,7 +56,7 @@ pub(super) fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What stood at a path before a preview of a file was written there.
+/// The state of a path before a preview of a file was written there.
 pub(super) struct Previous {
     contents: Option<Vec<u8>>,
     /// Folders above it that did not exist, the innermost first.

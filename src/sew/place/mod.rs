@@ -67,6 +67,9 @@ pub fn positioned(garment: &Garment, mesh: &ClothMesh) -> Option<Vec<Vec3>> {
     }
     let sheet = fold::pressed(garment, mesh);
     let laid = lay::laid_on_rest(garment, mesh, &sheet, &rest);
+    if rest.iter().any(|&piece| laid[piece].is_none()) {
+        return None;
+    }
     lay::lay(garment, mesh, &sheet, &laid, &mut x);
-    rest.iter().all(|&piece| laid[piece].is_some()).then_some(x)
+    Some(x)
 }

@@ -1,5 +1,7 @@
 //! How far limbs are spread so that cloth has room between them.
 
+use std::cell::LazyCell;
+
 use super::limbs::{Limbs, apart};
 use crate::geometry::Topology;
 use crate::mannequin::{JunctionSide, LEVEL, LIMB, LimbSpread, Mannequin, junctions};
@@ -20,11 +22,12 @@ const SMOOTH: usize = 8;
 
 /// The limbs of `body` that are too near to others to sew between them, and how they are spread; its legs only where
 /// cloth goes `between_legs`, which is asked only if they are too near.
-pub(super) fn spreads(body: &Mannequin, between_legs: impl Fn() -> bool) -> Vec<LimbSpread> {
+pub(super) fn spreads(body: &Mannequin, between_legs: impl FnOnce() -> bool) -> Vec<LimbSpread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
     let Some(known) = Limbs::new(body) else { return Vec::new() };
     let mut out: Vec<LimbSpread> = Vec::new();
+    let between_legs = LazyCell::new(between_legs);
     for junction in junctions(&mesh, &edges, LIMB) {
         let [Some(limb), beside] = known.of(&junction) else { continue };
         if out.iter().any(|spread| spread.kind == limb) {
@@ -34,7 +37,7 @@ pub(super) fn spreads(body: &Mannequin, between_legs: impl Fn() -> bool) -> Vec<
         // Legs come first: spread, they come nearer to the arms.
         let (gaps, way) = apart(&mesh, &junction, &levels);
         let Some(by) = opening(&gaps) else { continue };
-        if limb.is_leg() && !between_legs() {
+        if limb.is_leg() && !*between_legs {
             continue;
         }
         // Of two legs both give way; what an arm hangs beside stays.

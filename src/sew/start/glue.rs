@@ -190,15 +190,21 @@ fn cover(is_out: &mut [bool], laps: &[Lap]) {
     laps.iter().flat_map(|lap| &lap.covered).for_each(|(p, _)| is_out[*p as usize] = true);
 }
 
+impl Glued {
+    /// Number of connected parts.
+    pub(super) fn parts(&self) -> u32 {
+        self.part_of.iter().max().map_or(0, |last| last + 1)
+    }
+}
+
 /// Twice the number of handles of all parts of a surface.
 fn handles(glued: &Glued) -> i64 {
     let mut sides: BTreeMap<[u32; 2], i64> = BTreeMap::new();
     for t in &glued.triangles {
         (0..3).for_each(|k| *sides.entry(sorted_pair([t[k], t[(k + 1) % 3]])).or_default() += 1);
     }
-    let parts = glued.part_of.iter().max().map_or(0, |&last| i64::from(last) + 1);
     let euler = glued.count as i64 - sides.len() as i64 + glued.triangles.len() as i64;
-    2 * parts - euler - rims(glued).len() as i64
+    2 * i64::from(glued.parts()) - euler - rims(glued).len() as i64
 }
 
 /// The pairs that seams join, once exchanged, but for the upper layer of a pleat: its other two are sewn to one another

@@ -118,7 +118,7 @@ pub(crate) fn start_on(
     body: &Mannequin,
     collider: &Collider,
 ) -> Result<Vec<Vec3>, PlaceError> {
-    let dealt = Dealt::last(garment, mesh, body);
+    let (_, dealt) = Dealt::stages(garment, mesh, body);
     let axes = Axes::of(body);
     let level = dealt.levels(garment, mesh);
     let nodes = dealt.on_film(garment, mesh, &axes, |film| dealt.inflated(mesh, film, &axes, collider));
@@ -132,7 +132,7 @@ pub(crate) fn start_on(
 pub(super) fn goes_between_legs(garment: &Garment, body: &Mannequin) -> bool {
     let Ok(mesh) = mesh::build(garment, SPACING) else { return false };
     let one_leg = |ends: &Ends| ends.has(Ends::LEFT_LEG) != ends.has(Ends::RIGHT_LEG);
-    Dealt::last(garment, &mesh, body).dealing.ends.iter().any(one_leg)
+    Dealt::stages(garment, &mesh, body).1.dealing.ends.iter().any(one_leg)
 }
 
 /// A glued garment on the film between its openings.
@@ -164,32 +164,26 @@ struct Dealt {
 }
 
 impl Dealt {
-    /// Glues a garment and deals; where it has open fronts once more with these closed. The last is as it is put on.
-    fn stages(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Vec<Self> {
+    /// Glues a garment and deals; where it has open fronts once more with these closed. Returns it as it is put on, and
+    /// before that as it is with its fronts open, if it has any.
+    fn stages(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> (Option<Self>, Self) {
         let first = Self::with(garment, mesh, body, &[]);
-        let zips = first.dealing.zips.clone();
-        let closed = (!zips.is_empty()).then(|| Self::with(garment, mesh, body, &zips));
-        let mut stages: Vec<Self> = std::iter::once(first).chain(closed).collect();
-        let last = stages.pop().map(|last| last.without_sheets(mesh));
-        stages.extend(last);
-        stages
-    }
-
-    /// The garment as it is put on.
-    fn last(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Self {
-        let mut stages = Self::stages(garment, mesh, body);
-        stages.pop().unwrap_or_else(|| Self::with(garment, mesh, body, &[]))
+        if first.dealing.zips.is_empty() {
+            return (None, first.without_sheets(mesh));
+        }
+        let closed = Self::with(garment, mesh, body, &first.dealing.zips);
+        (Some(first), closed.without_sheets(mesh))
     }
 
     /// Takes the ends of the body out of the openings of flat sheets: nothing passes through what has no other opening
     /// than its rim, unless it is a bag as a cap is, whose rim is shorter than that of a disk of its area.
     fn without_sheets(mut self, mesh: &ClothMesh) -> Self {
-        let parts = self.glued.part_of.iter().max().map_or(0, |last| last + 1);
-        let mut area = vec![0.0; parts as usize];
+        let mut area = vec![0.0; self.glued.parts() as usize];
         for (t, source) in self.glued.triangles.iter().zip(&self.glued.source) {
-            area[self.glued.part_of[t[0] as usize] as usize] += flat_area(mesh, *source);
+            let corners = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
+            area[self.glued.part_of[t[0] as usize] as usize] += star::flat_area(&corners);
         }
-        for part in 0..parts {
+        for part in 0..self.glued.parts() {
             let own: Vec<usize> = (0..self.openings.len()).filter(|&k| self.openings[k].part == part).collect();
             if let [only] = own[..]
                 && self.openings[only].length.powi(2) >= 4.0 * PI * area[part as usize]
@@ -282,7 +276,6 @@ impl Dealt {
     /// The openings of every connected part.
     fn worn<'a>(&'a self, garment: &Garment, mesh: &'a ClothMesh) -> Vec<WornOpenings<'a>> {
         let cloth = Distances::new(&self.glued, mesh);
-        let parts = self.glued.part_of.iter().max().map_or(0, |last| last + 1);
         let of_part = |part: u32| {
             let own: Vec<usize> = (0..self.openings.len()).filter(|&k| self.openings[k].part == part).collect();
             let far: Vec<Vec<f64>> = own.iter().map(|&k| cloth.from(&self.openings[k].rim)).collect();
@@ -300,7 +293,7 @@ impl Dealt {
                 far,
             }
         };
-        (0..parts).map(of_part).collect()
+        (0..self.glued.parts()).map(of_part).collect()
     }
 
     /// Why a garment has no start: of the parts that nothing passes through, the first piece.
@@ -325,8 +318,7 @@ impl Dealt {
 
     /// The level of every node: the lowest of the pieces that its connected part is of.
     fn levels(&self, garment: &Garment, mesh: &ClothMesh) -> Vec<i32> {
-        let parts = self.glued.part_of.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut level = vec![i32::MAX; parts];
+        let mut level = vec![i32::MAX; self.glued.parts() as usize];
         for (piece, own) in garment.pieces.iter().zip(&mesh.pieces) {
             for n in own.particles.clone().filter_map(|p| self.glued.node_of[p]) {
                 let of_part = &mut level[self.glued.part_of[n as usize] as usize];
@@ -394,12 +386,6 @@ impl Dealt {
         let pieces = mesh.pieces.iter().enumerate().filter(|(_, piece)| piece.particles.clone().any(is_of));
         pieces.flat_map(|(piece, _)| marks::words(garment, piece)).map(PlaceWord::name).collect()
     }
-}
-
-/// Area of a triangle of the mesh as it is cut, square metres.
-fn flat_area(mesh: &ClothMesh, triangle: u32) -> f64 {
-    let [a, b, c] = mesh.triangles[triangle as usize].map(|p| mesh.flat[p as usize]);
-    0.5 * (b - a).perp(&(c - a)).abs()
 }
 
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.

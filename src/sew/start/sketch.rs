@@ -42,16 +42,16 @@ pub struct SketchedOpening {
 
 /// The start of a garment, meshed as `mesh`, before it is inflated.
 pub fn sketch(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Sketch {
-    let stages = Dealt::stages(garment, mesh, body);
-    let in_doubt = stages.iter().find(|stage| stage.doubt.is_some());
+    let (open, dealt) = Dealt::stages(garment, mesh, body);
+    let stages = || open.iter().chain([&dealt]);
+    let in_doubt = stages().find(|stage| stage.doubt.is_some());
     let words = in_doubt.map_or_else(Vec::new, |stage| settling(garment, mesh, stage, body));
-    let margin = stages.iter().map(|stage| stage.dealing.margin).fold(f64::INFINITY, f64::min);
+    let margin = stages().map(|stage| stage.dealing.margin).fold(f64::INFINITY, f64::min);
     let doubt = in_doubt.and_then(|stage| stage.doubt.clone());
-    let dealt = &stages[stages.len() - 1];
     let nodes = dealt.on_film(garment, mesh, &Axes::of(body), |film| film.nodes);
     let at = nodes.map(|nodes| hand_over::particles(garment, mesh, &dealt.glued, &nodes));
     let at = at.ok_or_else(|| dealt.unworn(garment, mesh, body));
-    Sketch { at, openings: openings(garment, mesh, dealt), margin, doubt, words }
+    Sketch { at, openings: openings(garment, mesh, &dealt), margin, doubt, words }
 }
 
 fn openings(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt) -> Vec<SketchedOpening> {

@@ -200,8 +200,7 @@ impl GluedPart<'_> {
     /// The triangles as they are to lie on the sphere, which they cover with the holes and mouths. Triangles that lie
     /// on each other with all corners cannot both look outward, and are left out.
     fn facets(&self, circles: &[Circle]) -> Vec<Facet> {
-        let area = |c: &[Vec2; 3]| 0.5 * (c[1] - c[0]).perp(&(c[2] - c[0])).abs();
-        let whole: f64 = self.flat.iter().map(area).sum();
+        let whole: f64 = self.flat.iter().map(flat_area).sum();
         let scale = (4.0 * PI / whole).sqrt();
         let sorted = |t: &[u32; 3]| {
             let mut t = *t;
@@ -211,7 +210,7 @@ impl GluedPart<'_> {
         let mut times: BTreeMap<[u32; 3], usize> = BTreeMap::new();
         self.triangles.iter().for_each(|t| *times.entry(sorted(t)).or_default() += 1);
         let own = self.triangles.iter().zip(&self.flat).filter(|(t, _)| times[&sorted(t)] == 1);
-        let own = own.filter_map(|(t, c)| Facet::new(*t, c.map(|p| p * scale), area(c) / whole));
+        let own = own.filter_map(|(t, c)| Facet::new(*t, c.map(|p| p * scale), flat_area(c) / whole));
         own.chain(self.cap_facets(circles, scale)).collect()
     }
 
@@ -244,4 +243,9 @@ impl GluedPart<'_> {
         let reach = Film::new(reach.len(), &self.edges, rims)?.spread(&reach);
         Some(reach.iter().zip(directions).map(|(far, direction)| direction * *far).collect())
     }
+}
+
+/// Area of a flat triangle, square metres.
+pub(super) fn flat_area(corners: &[Vec2; 3]) -> f64 {
+    0.5 * (corners[1] - corners[0]).perp(&(corners[2] - corners[0])).abs()
 }
