@@ -97,6 +97,44 @@ fn a_sleeve_of_which_there_is_one_has_an_arm_in_it() {
     }
 }
 
+/// A swimsuit in two pieces on the fold, without a word of `place`. Its back is cut lower than its front.
+const SWIMSUIT: &str = "garment: 1
+body: woman_92
+fabrics: {shell: nylon_spandex_knit}
+pieces:
+  a:
+    cut: fold center
+    drawn: L
+    grain: [[40, 250], [40, 500]]
+    outline: {start: 0 170, neck: 'C 60 170, 80 100, 85 0', strap: L 115 0, armhole: 'C 110 120, 130 220, 200 240',
+              side: 'C 175 380, 175 420, 205 560', leg: 'C 130 590, 60 660, 38 760', crotch: L 0 760, center: L 0 170}
+  b:
+    cut: fold center
+    drawn: R
+    grain: [[40, 300], [40, 500]]
+    outline: {start: 0 260, neck: 'C 60 260, 80 160, 85 0', strap: L 115 0, armhole: 'C 112 120, 140 225, 200 240',
+              side: 'C 175 380, 175 420, 205 560', leg: 'C 180 680, 90 740, 38 800', crotch: L 0 800, center: L 0 260}
+seams:
+  strap: {sew: a.strap, to: b.strap}
+  side: {sew: a.side, to: b.side}
+  crotch: {sew: a.crotch, to: b.crotch}
+free: ['*.neck', '*.armhole', '*.leg']
+";
+
+#[test]
+fn halves_of_a_piece_on_the_fold_go_to_their_own_sides() {
+    // With the drawn halves exchanged it is worn the other way round: `a` is the back then.
+    let turned =
+        SWIMSUIT.replace("drawn: L", "drawn: #").replace("drawn: R", "drawn: L").replace("drawn: #", "drawn: R");
+    for text in [SWIMSUIT, &turned] {
+        let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
+        let loaded = read_text("swimsuit", "swimsuit.yaml", text).expect("a garment");
+        let job = Job::new(Path::new("swimsuit.yaml"), loaded, &overrides).expect("a job");
+        let own = [("left arm", "a.armhole.L"), ("right arm", "b.armhole.R"), ("left leg", "b.leg.L")];
+        check(&job, &["head", "left arm", "right arm", "left leg", "right leg"], &own);
+    }
+}
+
 /// What passes through every opening of a garment that something passes through, with the edges there.
 fn worn(job: &Job, garment: &Garment) -> (Dealing, Vec<(String, Vec<String>)>) {
     let glued = glue(garment, &job.mesh, &[]);

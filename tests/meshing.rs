@@ -40,6 +40,7 @@ fn piece(name: &str, loops: Vec<Vec<Edge>>) -> Piece {
         name: name.into(),
         drawn_as: name.into(),
         side: None,
+        fold: None,
         fabric: "shell".into(),
         layer: 0,
         beneath: 0,

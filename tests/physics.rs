@@ -28,6 +28,7 @@ fn rectangle(width: f64, height: f64, spacing: f64) -> (Garment, ClothMesh) {
         name: "panel".into(),
         drawn_as: "panel".into(),
         side: None,
+        fold: None,
         fabric: "shell".into(),
         layer: 0,
         beneath: 0,

@@ -1,4 +1,7 @@
-"""A hundred jobs on a Dask cluster whose worker is killed and whose scheduler is started again."""
+"""Many jobs on a Dask cluster whose worker is killed and whose scheduler is started again.
+
+There are a hundred jobs, or as many as the environment variable TOILE_CLUSTER_JOBS says.
+"""
 
 from __future__ import annotations
 
@@ -20,18 +23,22 @@ from conftest import command, put_ball_and_sheet
 
 distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
 
-# Sheets that fall on a ball, all different.
-SHEETS = 98
+JOBS = int(os.environ.get("TOILE_CLUSTER_JOBS", "100"))
+# One job in fifty fails on purpose. The others are sheets that fall on a ball, all different.
+FAILING = JOBS // 50
+SHEETS = JOBS - FAILING
 # Results after which the worker is killed, and the scheduler.
-WORKER_AFTER, SCHEDULER_AFTER = 25, 60
+WORKER_AFTER, SCHEDULER_AFTER = JOBS // 4, JOBS * 3 // 5
 
 
 def jobs(folder: Path) -> list[dict[str, Any]]:
     garment = put_ball_and_sheet(folder)
-    sheets = [{"id": f"sheet {k}", "garment": str(garment), "spacing": 20 + 0.1 * k} for k in range(SHEETS)]
-    missing = {"id": "missing", "garment": str(folder / "missing.yaml")}
-    wrong = [{"id": "fabric", "garment": str(garment), "fabric": "denin"}, missing]
-    return [*sheets[: SHEETS // 2], wrong[0], *sheets[SHEETS // 2 :], wrong[1]]
+    step = 10 / SHEETS
+    sheets = [{"id": f"sheet {k}", "garment": str(garment), "spacing": 20 + step * k} for k in range(SHEETS)]
+    half = FAILING // 2
+    fabrics = [{"id": f"fabric {k}", "garment": str(garment), "fabric": f"denin {k}"} for k in range(half)]
+    missing = [{"id": f"missing {k}", "garment": str(folder / f"missing {k}.yaml")} for k in range(half, FAILING)]
+    return [*sheets[: SHEETS // 2], *fabrics, *sheets[SHEETS // 2 :], *missing]
 
 
 class Cluster:
@@ -120,9 +127,9 @@ def test_a_worker_killed_and_a_scheduler_started_again_lose_nothing(cluster: Clu
             over.set()
             striker.join()
     assert struck == ["worker", "scheduler"]
-    assert Counter(line["state"] for line in lines) == {"done": SHEETS, "failed": 2}
+    assert Counter(line["state"] for line in lines) == {"done": SHEETS, "failed": FAILING}
     assert [line["id"] for line in lines] == [job["id"] for job in listed]
-    assert len(results(store)) == SHEETS and len(os.listdir(store / "failed")) == 2
+    assert len(results(store)) == SHEETS and len(os.listdir(store / "failed")) == FAILING
 
     (tmp_path / "jobs.jsonl").write_text("".join(json.dumps(job) + "\n" for job in listed))
     run = command("batch", tmp_path / "jobs.jsonl", "-o", tmp_path / "plain", "--quiet")

@@ -11,7 +11,7 @@ use super::draft::{Draft, DrawnStretch};
 use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
 use super::value::{CutKind, Side};
-use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
+use super::{Edge, EdgeId, FoldAxis, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
 
 /// A drawing as it lies in a cut piece: the whole piece, or one half of a folded one.
@@ -119,6 +119,7 @@ impl Pieces {
             name: format!("{}{}", draft.name, instance.suffix()),
             drawn_as: draft.name.clone(),
             side,
+            fold: None,
             fabric: fabric.to_owned(),
             layer: draft.layer,
             beneath: 0,
@@ -151,6 +152,7 @@ impl Pieces {
             name: draft.name.clone(),
             drawn_as: draft.name.clone(),
             side: None,
+            fold: Some(fold_axis(draft, axis)),
             fabric: fabric.to_owned(),
             layer: draft.layer,
             beneath: 0,
@@ -162,6 +164,14 @@ impl Pieces {
         });
         self.instances.extend(halves);
     }
+}
+
+/// The fold of a piece. A ring runs clockwise on screen, so that the drawn half lies on its right, where y points down.
+fn fold_axis(draft: &Draft, fold: &Path) -> FoldAxis {
+    let along = (fold.end() - fold.start()).normalize();
+    let into_drawn = Vec2::new(-along.y, along.x);
+    let left = if draft.drawn == Side::Left { into_drawn } else { -into_drawn };
+    FoldAxis { on: fold.start(), left }
 }
 
 /// The reflection across the line through `a` and `b`.

@@ -128,6 +128,8 @@ pub struct Piece {
     pub drawn_as: String,
     /// Side of a piece of a pair.
     pub side: Option<Side>,
+    /// Where the wearer's left half begins, of a piece cut on the fold.
+    pub fold: Option<FoldAxis>,
     /// Name in [`Garment::fabrics`].
     pub fabric: String,
     /// 0 = its garment's shell, positive further out, negative nearer the body.
@@ -170,6 +172,22 @@ impl Piece {
     /// Its layer among those of all garments that are worn over one another.
     pub fn level(&self) -> i32 {
         self.layer.saturating_add(self.beneath)
+    }
+}
+
+/// The line on which a piece is cut on the fold: the wearer's left half lies on one side of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoldAxis {
+    /// A point of it, metres.
+    pub on: Vec2,
+    /// Unit direction across it, into the wearer's left half.
+    pub left: Vec2,
+}
+
+impl FoldAxis {
+    /// How far a point of the flat piece lies in the wearer's left half, metres; negative in the right one.
+    pub fn left_of(&self, p: Vec2) -> f64 {
+        (p - self.on).dot(&self.left)
     }
 }
 

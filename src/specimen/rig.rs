@@ -77,6 +77,7 @@ impl SpecimenSheet {
             name: "specimen".into(),
             drawn_as: "specimen".into(),
             side: None,
+            fold: None,
             fabric: fabric.name.clone(),
             layer: 0,
             beneath: 0,

@@ -162,13 +162,13 @@ impl<'a> DealCosts<'a> {
         cloth: &'a Distances<'a>,
         sizes: &Sizes,
     ) -> Self {
-        let stretches = marks::stretches(mesh, glued, openings);
+        let stretches = marks::stretches(garment, mesh, glued, openings);
         let far: Vec<Vec<f64>> = openings.iter().map(|o| cloth.from(&o.rim)).collect();
         let near =
             |i: usize, j: usize| openings[j].rim.iter().map(|&n| far[i][n as usize]).fold(f64::INFINITY, f64::min);
         let all = 0..openings.len();
         let apart = all.clone().map(|i| all.clone().map(|j| near(i, j)).collect()).collect();
-        let sided = stretches.iter().map(|on| marks::sidedness(garment, on)).collect();
+        let sided = stretches.iter().map(|on| marks::sidedness(on)).collect();
         let unlike = unlike(&Mirror::new(garment, mesh, glued), openings, &stretches, mesh.spacing);
         let mut out = Self {
             cloth,

@@ -23,6 +23,9 @@ const CORNER_OF_A_SLIT: usize = 4;
 /// Particles that follow each other on the rim of a slit are this near to each other in the drawing, in grid spacings.
 const SLIT_STEP: f64 = 2.5;
 
+/// A point so near to its piece's fold is on neither side, metres.
+const ON_FOLD: f64 = 1e-6;
+
 /// A stretch of an opening's rim on one piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RimStretch {
@@ -35,8 +38,8 @@ pub(super) struct RimStretch {
     height: f64,
     /// Whether the piece is a band, which may be drawn any way up.
     is_band: bool,
-    /// Whether the piece is a strap that crosses another: it is on both sides.
-    is_crossed: bool,
+    /// Which side it is on: 1 left, −1 right, 0 both or unknown.
+    side: f64,
 }
 
 /// Pieces that share this many nodes of the surface are sewn to each other; fewer may be a corner.
@@ -161,8 +164,13 @@ fn is_mirrored(one: &[Vec2], other: &[Vec2], tolerance: f64) -> bool {
     (boxes[0] - boxes[1]).norm() <= 2.0 * tolerance && one.iter().all(near)
 }
 
-/// The pieces on an opening's rim, longest first.
-pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[GluedOpening]) -> Vec<Vec<RimStretch>> {
+/// The pieces on every opening's rim, longest first. A strap that crosses another is on both sides.
+pub(super) fn stretches(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    glued: &Glued,
+    openings: &[GluedOpening],
+) -> Vec<Vec<RimStretch>> {
     let mut on_rim: Vec<Vec<usize>> = vec![Vec::new(); glued.count];
     for (i, opening) in openings.iter().enumerate() {
         opening.rim.iter().for_each(|&n| on_rim[n as usize].push(i));
@@ -179,7 +187,11 @@ pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[GluedOpenin
     }
     let ends = glued.crossed.iter().flat_map(|crossed| &crossed.end);
     let crossed: BTreeSet<usize> = ends.filter_map(|p| mesh.piece_of(*p)).collect();
-    let stretch = |piece: usize, points: &[Vec2]| stretch(mesh, piece, points, crossed.contains(&piece));
+    let side = |piece: usize, points: &[Vec2]| {
+        let sides = points.iter().map(|p| side_at(garment, piece, *p));
+        if crossed.contains(&piece) { 0.0 } else { sides.sum::<f64>() / points.len() as f64 }
+    };
+    let stretch = |piece: usize, points: &[Vec2]| stretch(mesh, piece, points, side(piece, points));
     let list = |pieces: BTreeMap<usize, Vec<Vec2>>| {
         // One particle is where another piece's rim ends.
         let long = pieces.into_iter().filter(|(_, points)| points.len() > 1);
@@ -190,12 +202,12 @@ pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[GluedOpenin
     found.into_iter().map(list).collect()
 }
 
-fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2], is_crossed: bool) -> RimStretch {
+fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2], side: f64) -> RimStretch {
     let [low, high] = box_of(mesh.pieces[piece].particles.clone().map(|p| mesh.flat[p]));
     let middle = points.iter().sum::<Vec2>() / points.len() as f64 - 0.5 * (low + high);
     let height = middle.y / (0.5 * (high.y - low.y)).max(1e-9);
     let is_band = (high - low).min() < BAND;
-    RimStretch { piece, count: points.len(), middle, height, is_band, is_crossed }
+    RimStretch { piece, count: points.len(), middle, height, is_band, side }
 }
 
 /// Whether an opening is a hole or a slit within one piece: its rim closes there as it is drawn.
@@ -259,6 +271,18 @@ pub(super) fn side_of(garment: &Garment, piece: usize) -> f64 {
     }
 }
 
+/// Which side a point of a flat piece is on: 1 left, −1 right, 0 unknown.
+pub(super) fn side_at(garment: &Garment, piece: usize, at: Vec2) -> f64 {
+    let side = side_of(garment, piece);
+    match garment.pieces[piece].fold {
+        Some(fold) if side == 0.0 => {
+            let left = fold.left_of(at);
+            if left.abs() < ON_FOLD { 0.0 } else { left.signum() }
+        }
+        _ => side,
+    }
+}
+
 /// Which way a piece faces: 1 front, −1 back, 0 unknown.
 fn facing(garment: &Garment, piece: usize) -> f64 {
     let says = |meaning| f64::from(says(garment, piece, meaning));
@@ -266,8 +290,8 @@ fn facing(garment: &Garment, piece: usize) -> f64 {
 }
 
 /// How much of an opening is on the left rather than on the right: from 1 to −1.
-pub(super) fn sidedness(garment: &Garment, stretches: &[RimStretch]) -> f64 {
-    shared(stretches, |s| if s.is_crossed { 0.0 } else { side_of(garment, s.piece) })
+pub(super) fn sidedness(stretches: &[RimStretch]) -> f64 {
+    shared(stretches, |s| s.side)
 }
 
 /// The share of an opening on pieces that fail a test.

@@ -36,7 +36,7 @@ fn evidence(wearing: &Wearing, own: &[usize], ends: &[Ends]) -> f64 {
     let mut sum = 0.0;
     for &i in own {
         let way = f64::from(ends[i].touches(left)) - f64::from(ends[i].touches(right));
-        sum += SAID * way * marks::sidedness(wearing.garment, &wearing.stretches[i]);
+        sum += SAID * way * marks::sidedness(&wearing.stretches[i]);
     }
     let Some(left_of) = left_field(wearing, own, ends) else { return sum };
     for &i in own.iter().filter(|&&i| ends[i].has(Ends::HEAD)) {
@@ -85,7 +85,7 @@ fn drawn_field(wearing: &Wearing) -> Option<Vec<f64>> {
     let (garment, mesh) = (wearing.garment, wearing.mesh);
     let mut field = vec![0.0; wearing.glued.count];
     for (i, piece) in mesh.pieces.iter().enumerate() {
-        let side = marks::side_of(garment, i);
+        let side = |p: usize| marks::side_at(garment, i, mesh.flat[p]);
         let faces = f64::from(marks::says(garment, i, PlaceMeaning::Front))
             - f64::from(marks::says(garment, i, PlaceMeaning::Back));
         let range = piece.particles.clone();
@@ -94,8 +94,8 @@ fn drawn_field(wearing: &Wearing) -> Option<Vec<f64>> {
         for p in range {
             let Some(node) = wearing.glued.node_of[p] else { continue };
             // Seen from outside the wearer's left is to the right on a front, to the left on a back.
-            let told = if side != 0.0 { side } else { faces * (mesh.flat[p].x - middle) };
-            field[node as usize] += told;
+            let told = side(p);
+            field[node as usize] += if told != 0.0 { told } else { faces * (mesh.flat[p].x - middle) };
         }
     }
     let told = |left: bool| -> Vec<u32> {

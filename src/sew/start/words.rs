@@ -27,7 +27,7 @@ pub(super) fn settling(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt, body:
     let Dealing { ends: best, runner_up: Some(next), .. } = &dealt.dealing else { return Vec::new() };
     let ways = [best, next];
     let mut out: Vec<Settling> = Vec::new();
-    for piece in pieces(mesh, dealt, ways) {
+    for piece in pieces(garment, mesh, dealt, ways) {
         for word in words() {
             let mut said = garment.clone();
             said.pieces[piece].place = Some(Place::Around { words: vec![word] });
@@ -44,8 +44,8 @@ pub(super) fn settling(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt, body:
 
 /// The pieces at the openings that the two ways differ in, those with most of their rims first; of the copies of a
 /// drawn piece the first.
-fn pieces(mesh: &ClothMesh, dealt: &Dealt, [best, next]: [&Vec<Ends>; 2]) -> Vec<usize> {
-    let stretches = marks::stretches(mesh, &dealt.glued, &dealt.openings);
+fn pieces(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt, [best, next]: [&Vec<Ends>; 2]) -> Vec<usize> {
+    let stretches = marks::stretches(garment, mesh, &dealt.glued, &dealt.openings);
     let differ = (0..best.len()).filter(|&i| best[i] != next[i]);
     let mut out: Vec<usize> = Vec::new();
     for stretch in differ.flat_map(|i| &stretches[i]) {
