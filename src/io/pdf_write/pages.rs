@@ -19,6 +19,8 @@ const TOUCH: f64 = 2.5e-4;
 const NAME_AIR: f64 = 0.0007;
 const NAME_STEP: f64 = 0.004;
 const NAME_PLACES: u32 = 20;
+/// Rows of such places.
+const NAME_ROWS: u32 = 4;
 /// More pages than this are a wrong unit.
 const MOST_PAGES: usize = 600;
 /// Letters of the first page and of the pages' names, metres.
@@ -236,7 +238,8 @@ fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> PageContent 
     pen.finish()
 }
 
-/// Where on a page a name is clear of all lines: at `at`, or as near to that along `along` as there is such a place.
+/// Where on a page a name is clear of all lines: at `at`, or as near to that along `along`, one of the axes, as there is
+/// such a place.
 /// Where there is none it stays.
 fn clear_place(plan: &FieldPlan, corner: Vec2, at: Vec2, along: Vec2, (name, height): (&str, f64)) -> Vec2 {
     let half = LETTER_WIDTH * height * name.chars().count() as f64 / 2.0 + NAME_AIR;
@@ -245,8 +248,16 @@ fn clear_place(plan: &FieldPlan, corner: Vec2, at: Vec2, along: Vec2, (name, hei
         let on_page = low.min() > 0.0 && (0..2).all(|k| high[k] < plan.frame[k]);
         on_page && plan.is_clear(corner + low, corner + high)
     };
-    let steps = (0..NAME_PLACES).flat_map(|k| [1.0, -1.0].map(|side| at + along * (side * f64::from(k) * NAME_STEP)));
-    steps.into_iter().find(is_clear).unwrap_or(at)
+    // Farther into the page only where the whole side has no such place.
+    let middle = plan.frame / 2.0;
+    let across = Vec2::new(along.y, along.x);
+    let inward = across * (middle - at).dot(&across).signum();
+    let places = (0..NAME_ROWS).flat_map(|row| (0..NAME_PLACES).map(move |k| (f64::from(row), f64::from(k))));
+    let moved = |(row, k): (f64, f64)| {
+        let at = at + inward * (row * 2.0 * NAME_STEP);
+        [1.0, -1.0].map(|side| at + along * (side * k * NAME_STEP))
+    };
+    places.flat_map(moved).find(is_clear).unwrap_or(at)
 }
 
 /// The frame, and half diamonds where a neighbour is joined, named alike on both pages.

@@ -344,7 +344,7 @@ fn remark(node: Node, frame: ElementFrame, letters: f64) -> Option<Remark> {
         let own = node.descendants().find_map(|n| n.attribute(key))?;
         own.split([' ', ',']).next()?.parse::<f64>().ok().filter(|x| x.is_finite())
     };
-    let words: Vec<&str> = node.descendants().filter_map(|n| n.text()).collect();
+    let words: Vec<&str> = node.descendants().filter(Node::is_text).filter_map(|n| n.text()).collect();
     let at = Vec2::new(number("x").unwrap_or(0.0), number("y").unwrap_or(0.0));
     let height = letters * frame.linear.determinant().abs().sqrt();
     let text = shown(&words.join(" "), REMARK);
