@@ -238,8 +238,8 @@ fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> PageContent 
     pen.finish()
 }
 
-/// Where on a page a name is clear of all lines: at `at`, or as near to that along `along`, one of the axes, as there is
-/// such a place.
+/// Where on a page a name is clear of all lines: at `at`, or as near to that along `along`, one of the axes, as there
+/// is such a place.
 /// Where there is none it stays.
 fn clear_place(plan: &FieldPlan, corner: Vec2, at: Vec2, along: Vec2, (name, height): (&str, f64)) -> Vec2 {
     let half = LETTER_WIDTH * height * name.chars().count() as f64 / 2.0 + NAME_AIR;
