@@ -919,7 +919,7 @@ fn letters_of_other_scripts_are_printed() {
     room.put("vest.yaml", garment);
     let (code, said) = room.run(&["export", "pdf", "vest.yaml", "-o", "vest.pdf"]);
     assert!(code == Some(0) && !said.contains("glyphs"), "{said}");
-    let pdf = std::fs::read(room.path("vest.pdf")).expect("a PDF");
+    let pdf = std::fs::read(room.0.path().join("vest.pdf")).expect("a PDF");
     let pdf = String::from_utf8_lossy(&pdf);
     // A font for each 256 letters, with the letters of its codes.
     assert!(pdf.contains("/Subtype /Type3") && pdf.contains("/uni0436") && pdf.contains("/uni534A"));
