@@ -78,12 +78,13 @@ const FLOORS: [(&str, &[&str]); 26] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 27] = [
+const CRATES: [(&str, &[&str]); 28] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
     ("foldhash", &["dynamics/friction.rs"]),
     ("spade", &["mesh/"]),
+    ("unifont", &["geometry/letters.rs"]),
     ("kurbo", &["geometry/"]),
     ("i_overlay", &["cutting/clean.rs"]),
     ("roxmltree", &["io/svg_read/"]),

@@ -910,12 +910,78 @@ fn units_of_meshes_are_guessed_and_said() {
     assert!(code == Some(1) && !said.contains("assumed"), "{said}");
 }
 
+/// Letters of every script of the Basic Multilingual Plane are printed, and can be searched; what is not is said.
 #[test]
-fn letters_that_a_pdf_cannot_print_are_said() {
+fn letters_of_other_scripts_are_printed() {
     let room = Room::new();
-    let garment = "garment: 1\npieces:\n  жилет:\n    outline: {start: 0 0, a: L 200 0, b: L 200 300, c: L 0 0}\n\
-                   free: ['*.*']\n";
+    let garment = "garment: 1\nname: 半袖\npieces:\n  жилет:\n    \
+                   outline: {start: 0 0, a: L 200 0, b: L 200 300, c: L 0 0}\nfree: ['*.*']\n";
     room.put("vest.yaml", garment);
     let (code, said) = room.run(&["export", "pdf", "vest.yaml", "-o", "vest.pdf"]);
-    assert!(code == Some(0) && said.contains("no glyphs for еж"), "{said}");
+    assert!(code == Some(0) && !said.contains("glyphs"), "{said}");
+    let pdf = std::fs::read(room.0.path().join("vest.pdf")).expect("a PDF");
+    let pdf = String::from_utf8_lossy(&pdf);
+    // A font for each 256 letters, with the letters of its codes.
+    assert!(pdf.contains("/Subtype /Type3") && pdf.contains("/uni0436") && pdf.contains("/uni534A"));
+    assert!(pdf.contains("<36> <0436>"), "no map to Unicode");
+    room.put("vest.yaml", &garment.replace("半袖", "vest \u{1f600}"));
+    let (code, said) = room.run(&["export", "pdf", "vest.yaml", "-o", "vest.pdf"]);
+    assert!(code == Some(0) && said.contains("no glyphs for \u{1f600}"), "{said}");
+}
+
+/// The ending of a file says its format; where it does not, the formats are named.
+#[test]
+fn the_format_of_an_import_may_be_left_out() {
+    let room = Room::new();
+    room.put("skirt.svg", &svg(300.0, 400.0, "<path id='front' d='M 10 10 H 210 V 310 H 10 Z'/>"));
+    let (code, said) = room.run(&["import", "skirt.svg", "-o", "skirt2.yaml"]);
+    assert!(code == Some(0) && said.contains("1 piece"), "{said}");
+    let (code, said) = room.run(&["import", "-o", "skirt3.yaml", "skirt.svg"]);
+    assert!(code == Some(0) && said.contains("1 piece"), "{said}");
+    let (code, said) = room.run(&["import", "skirt.plt", "-o", "skirt4.yaml"]);
+    assert!(code == Some(2) && said.contains("toile import dxf FILE") && !said.contains("unrecognized"), "{said}");
+}
+
+/// Titles in the largest letters name pieces that no group names, and numbers are kept.
+#[test]
+fn titles_name_pieces() {
+    let text =
+        |x: f64, y: f64, size: f64, words: &str| format!("<text x='{x}' y='{y}' font-size='{size}'>{words}</text>");
+    let inside = ["<path d='M 10 10 H 210 V 310 H 10 Z'/>", "<path d='M 300 10 H 500 V 310 H 300 Z'/>"].concat()
+        + &text(100.0, 100.0, 12.0, "Front")
+        + &text(100.0, 120.0, 6.0, "Blouse of May")
+        + &text(100.0, 140.0, 30.0, "2")
+        + &text(100.0, 160.0, 6.0, "cut 2")
+        + &text(400.0, 100.0, 12.0, "Back yoke")
+        + &text(400.0, 120.0, 6.0, "Size: 38");
+    let drawing = read(&svg(600.0, 400.0, &inside));
+    let pieces = pieces(&drawing);
+    let names: Vec<&str> = pieces.iter().map(|piece| piece.name.value.as_str()).collect();
+    assert_eq!(names, ["Front", "Back_yoke"]);
+    let note = |k: usize| pieces[k].note.as_ref().map(|note| note.value.as_str());
+    assert_eq!([note(0), note(1)], [Some("no. 2 of the drawing"), None]);
+    assert!(says(&drawing.left_out, &["2 texts"]), "{:?}", drawing.left_out);
+}
+
+/// Of sizes that lie over one another each is sewn by itself.
+#[test]
+fn sizes_are_not_sewn_to_each_other() {
+    let piece = |id: &str, x: f64, grow: f64| {
+        format!("<path id='{id}' d='M {x} 10 h {} l 20 {} h {} Z'/>", 150.0 + grow, 300.0 + grow, -170.0 - grow)
+    };
+    let size = |name: &str, grow: f64| {
+        let pieces = piece(&format!("front{name}"), 10.0, grow) + &piece(&format!("back{name}"), 310.0, grow);
+        format!("<g inkscape:groupmode='layer' inkscape:label='size {name}'>{pieces}</g>")
+    };
+    let drawing = read(&svg(600.0, 400.0, &(size("36", 0.0) + &size("38", 4.0) + &size("40", 8.0))));
+    assert_eq!(drawing.pieces.len(), 6);
+    let made = made(&drawing);
+    assert!(!made.suggestions.is_empty());
+    for own in &made.suggestions {
+        let edges = own.sew.iter().chain(&own.to).filter(|edge| *edge != "mirror");
+        let mut sizes: Vec<Option<&str>> =
+            edges.map(|edge| ["36", "38", "40"].into_iter().find(|size| edge.contains(size))).collect();
+        sizes.dedup();
+        assert_eq!(sizes.len(), 1, "{own:?}");
+    }
 }

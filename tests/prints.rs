@@ -1,6 +1,6 @@
 //! What is printed beside the lines: labels off the joins of pages, squares to measure, layers, the order of sewing.
 
-use toile::cutting::{CuttingOptions, Label, Layout, Paper, Sheet, labelled, sewing_order};
+use toile::cutting::{CuttingOptions, Label, Layout, Paper, PaperLayer, Sheet, labelled, layers, nested, sewing_order};
 use toile::geometry::Vec2;
 use toile::io::garment::{Loaded, read_text};
 use toile::io::pdf_write::{Page, booklet, one_page};
@@ -56,6 +56,52 @@ fn a_seam_along_several_edges_is_sewn_after_those_that_join_them() {
     assert_eq!(steps[place("shoulder")], "shoulder, left and right: front.shoulder to back.shoulder");
     assert_eq!(steps[place("band")], "band, left and right: band.neck to front.neck + back.neck");
     assert_eq!(steps.len(), 4);
+}
+
+/// Of pieces on the fold both halves are sewn alike: the step names neither.
+#[test]
+fn a_step_on_both_sides_names_no_side() {
+    let text = BODICE
+        .replace("  back:\n    fabric: lining\n    cut: pair", "  back:\n    fabric: lining\n    cut: fold center");
+    let steps: Vec<String> = sewing_order(&loaded(&text).garment).iter().map(|step| step.words()).collect();
+    assert!(steps.contains(&"side, left and right: front.side to back.side".to_owned()), "{steps:?}");
+}
+
+/// The sizes of a garment lie over one another, each with its name and in a layer of its own; one label for all.
+#[test]
+fn sizes_are_nested_in_layers() {
+    let sized = |by: f64| {
+        let text = BODICE
+            .replace("L 220 420", &format!("L {} 420", 220.0 + by))
+            .replace("L 220 200", &format!("L {} 200", 220.0 + by));
+        let text = text
+            .replace("-220 420", &format!("{} 420", -220.0 - by))
+            .replace("-220 200", &format!("{} 200", -220.0 - by));
+        papers(&loaded(&text))
+    };
+    let names = ["38", "40", "42"].map(str::to_owned);
+    let nest = nested(names.iter().cloned().zip([0.0, 8.0, 16.0].map(sized)).collect());
+    assert_eq!(nest.len(), 3 * 4);
+    let of =
+        |material: &str, size: Option<&str>| PaperLayer { material: material.into(), size: size.map(str::to_owned) };
+    let sizes = [None, Some("38"), Some("40"), Some("42")];
+    let wanted: Vec<PaperLayer> = ["shell", "lining"].iter().flat_map(|m| sizes.map(|size| of(m, size))).collect();
+    assert_eq!(layers(&nest), wanted);
+    let sheet = Sheet::new(&nest, &Layout::default());
+    let front: Vec<&Paper> = sheet.papers.iter().filter(|paper| paper.name == "front").collect();
+    let label: Vec<&str> = front[0].texts.iter().map(|t| t.text.as_str()).collect();
+    assert!(label[0] == "front" && front[0].cut.is_empty(), "{label:?}");
+    for (paper, name) in front[1..].iter().zip(&names) {
+        assert_eq!(paper.texts.iter().map(|t| &t.text).collect::<Vec<_>>(), [name]);
+    }
+    // They are not laid beside each other: the neck is where it is in every size.
+    let neck = |paper: &Paper| paper.sew.iter().find(|line| line.name == "neck").map(|line| line.path.start());
+    let necks: Vec<Option<Vec2>> = front[1..].iter().map(|paper| neck(paper)).collect();
+    assert!(necks.iter().all(|place| place.is_some() && *place == necks[0]), "{necks:?}");
+    let svg = cutting_svg("Bodice", &sheet);
+    assert!(svg.contains("inkscape:label=\"material shell, size 40\"") && svg.contains("data-size=\"40\""));
+    let pdf = booklet("Bodice", &nest, &[], Page::A4).expect("pages");
+    assert!(String::from_utf8_lossy(&pdf).contains("(lining, size 42)"));
 }
 
 #[test]

@@ -219,6 +219,32 @@ fn the_seams_of_shipped_patterns_are_offered() {
     assert!(right * 100 >= offered * 85 && found * 100 >= seams * 70, "{right} of {offered}, {found} of {seams}");
 }
 
+/// Of designs as makers' programs draw them (hoodie, skirt with a waistband, dress with darts, bodice with princess
+/// seams, coat with a two-part sleeve, trousers), stripped likewise.
+#[test]
+fn the_seams_of_makers_designs_are_offered() {
+    let mut names: Vec<PathBuf> =
+        std::fs::read_dir("tests/designs").expect("designs").map(|e| e.expect("a design").path()).collect();
+    names.sort();
+    let mut garments = Vec::new();
+    for path in names {
+        let loaded = read(&path).unwrap_or_else(|e| panic!("{e}"));
+        let drawn = drawings(&loaded.file, &loaded.garment);
+        garments.push((path.display().to_string(), loaded.file, drawn));
+    }
+    assert_eq!(garments.len(), 6);
+    let [right, offered, found, seams] = of_garments(&garments);
+    assert!(right * 100 >= offered * 85 && found * 100 >= seams * 70, "{right} of {offered}, {found} of {seams}");
+}
+
+/// The straight upper and lower edges of a panel with one bulging side are no sides of a sleeve.
+#[test]
+fn edges_across_the_grain_are_no_sides_of_a_sleeve() {
+    let path = "M 0 0 H 200 C 260 60 260 240 200 300 H 0 Z";
+    let offered = offered(&made(&[Drawn { cut: None, ..Drawn::pair("panel", path) }]));
+    assert_eq!(offered, []);
+}
+
 #[test]
 fn the_seams_of_garmentcodes_patterns_are_offered() {
     let folder = PathBuf::from("../shared/garmentcode");

@@ -8,7 +8,7 @@ use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
 use super::paper_args::{ExportArgs, ExportCommand, PageArg};
 use super::plan::plan;
-use crate::cutting::{CuttingOptions, Label, Layout, MarkKind, Paper, SewKind, Sheet, labelled, sewing_order};
+use crate::cutting::{CuttingOptions, Label, Layout, MarkKind, Paper, SewKind, Sheet, labelled, nested, sewing_order};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
@@ -19,6 +19,9 @@ use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
 const MARGIN: f64 = 0.010;
+/// The word for all sizes, and the name of the garment as its file draws it among them.
+const ALL_SIZES: &str = "all";
+const AS_DRAWN: &str = "base";
 /// Most letters that a message lists.
 const MOST_LETTERS: usize = 60;
 
@@ -43,6 +46,9 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         }
         ExportCommand::Plan(args) => plan(args, console),
         ExportCommand::Dxf { common } => {
+            if common.size.as_deref() == Some(ALL_SIZES) {
+                return Err(CliError::Argument("a DXF has one size: give --size its name".to_owned()));
+            }
             let job = ExportJob::new(common, console)?;
             if job.papers.iter().any(is_told) {
                 console.note(
@@ -73,10 +79,11 @@ struct ExportJob<'a> {
 
 impl<'a> ExportJob<'a> {
     fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
-        let DrawnGarment { loaded, drawings: drawn, allowance } =
-            DrawnGarment::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
-        let label = Label { title: loaded.garment.title.clone(), wearer: args.wearer.clone(), date: args.date.clone() };
-        let papers = labelled(&drawn, &CuttingOptions { allowance, whole: args.whole }, &label);
+        let all = args.size.as_deref() == Some(ALL_SIZES);
+        let size = args.size.as_deref().filter(|_| !all);
+        let drawn = DrawnGarment::read(&args.garment, size, args.allowance, "the file", console)?;
+        let papers = if all { all_sizes(args, &drawn, console)? } else { labelled_papers(args, &drawn) };
+        let loaded = drawn.loaded;
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
         let steps = sewing_order(&loaded.garment).iter().map(|step| step.words()).collect();
@@ -90,7 +97,7 @@ impl<'a> ExportJob<'a> {
             let some: String = letters.iter().take(MOST_LETTERS).collect();
             let more = if letters.len() > MOST_LETTERS { " …" } else { "" };
             console.note(&format!(
-                "the font of the PDF has no glyphs for {some}{more}: they are printed as '?'; an SVG has them"
+                "the fonts of the PDF have no glyphs for {some}{more}: they are printed as '?'; an SVG has them"
             ));
         }
     }
@@ -99,11 +106,38 @@ impl<'a> ExportJob<'a> {
         let usual = || folder(None, &self.name).join(format!("cutting.{kind}"));
         let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
         write_all(&[(target.clone(), bytes)], &borrowed(&self.inputs))?;
-        let rows: Vec<PaperRow> = self.papers.iter().map(PaperRow::new).collect();
+        let is_piece = |paper: &&Paper| !paper.cut.is_empty();
+        let rows: Vec<PaperRow> = self.papers.iter().filter(is_piece).map(PaperRow::new).collect();
         let written = ExportSummary { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
         console.results(&written, || written.text())?;
         Ok(Exit::Done)
     }
+}
+
+/// The papers of a garment with their labels.
+fn labelled_papers(args: &ExportArgs, drawn: &DrawnGarment) -> Vec<Paper> {
+    let title = drawn.loaded.garment.title.clone();
+    let label = Label { title, wearer: args.wearer.clone(), date: args.date.clone() };
+    labelled(&drawn.drawings, &CuttingOptions { allowance: drawn.allowance, whole: args.whole }, &label)
+}
+
+/// The papers of all sizes of a garment over one another. The garment as it is drawn is one of them, unless a size says
+/// so.
+fn all_sizes(args: &ExportArgs, drawn: &DrawnGarment, console: &Console) -> Result<Vec<Paper>, CliError> {
+    let sizes = &drawn.loaded.file.sizes;
+    if sizes.is_empty() {
+        return Err(CliError::Argument("the garment has no sizes: 'sizes' in its file says them".to_owned()));
+    }
+    let mut all = Vec::new();
+    if sizes.iter().all(|size| !size.alter.is_empty()) {
+        all.push((AS_DRAWN.to_owned(), labelled_papers(args, drawn)));
+    }
+    for size in sizes {
+        let name = &size.name.value;
+        let one = DrawnGarment::read(&args.garment, Some(name), args.allowance, "the file", console)?;
+        all.push((name.clone(), labelled_papers(args, &one)));
+    }
+    Ok(nested(all))
 }
 
 /// Whether a paper has lines that DXF has no layer for.
@@ -124,6 +158,8 @@ struct ExportSummary {
 #[derive(serde::Serialize)]
 struct PaperRow {
     name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    size: Option<String>,
     cut: usize,
     mirrored: bool,
     on_fold: bool,
@@ -137,6 +173,7 @@ impl PaperRow {
         let [low, high] = paper.bounds();
         Self {
             name: paper.name.clone(),
+            size: paper.size.as_ref().map(|size| size.name.clone()),
             cut: paper.quantity,
             mirrored: paper.mirrored,
             on_fold: paper.fold.is_some(),
@@ -157,7 +194,15 @@ impl ExportSummary {
                 _ => "",
             };
             let number = |x: f64| format!("{x:.0}");
-            vec![p.name.clone(), p.cut.to_string(), number(p.width), number(p.height), how.into(), p.fabric.clone()]
+            let size = p.size.as_ref().map_or_else(String::new, |size| format!(", size {size}"));
+            vec![
+                format!("{}{size}", p.name),
+                p.cut.to_string(),
+                number(p.width),
+                number(p.height),
+                how.into(),
+                p.fabric.clone(),
+            ]
         }));
         format!("{}\n  written to {}\n", aligned(&rows), self.file)
     }

@@ -23,6 +23,7 @@ mod flatten_args;
 mod garment_args;
 mod import;
 mod import_args;
+mod import_kind;
 mod junit;
 mod library_args;
 mod make;
@@ -42,8 +43,6 @@ use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use crate::batch::become_worker;
 use crate::io::files::undo_on_interrupt;
 use args::{Args, Command};
@@ -59,7 +58,7 @@ pub fn main() -> ExitCode {
 /// Does what the arguments say, the first of which is the program's name, and gives the exit code. `itself` is the
 /// command that starts this program again: a batch makes each garment in a process of its own.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>, itself: &[OsString]) -> u8 {
-    let args = match Args::try_parse_from(arguments) {
+    let args = match import_kind::parsed(arguments) {
         Ok(args) => args,
         // --help and --version (0) and wrong usage (2).
         Err(said) => {

@@ -44,8 +44,8 @@ pub(super) struct ExportArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml")]
     pub(super) garment: PathBuf,
-    /// A size of the garment, as its file names it under `sizes`
-    #[arg(long, value_name = "NAME")]
+    /// A size of the garment, as its file names it under `sizes`, or 'all': over one another, a layer each
+    #[arg(long, value_name = "NAME|all")]
     pub(super) size: Option<String>,
     /// The file to write [default: out/NAME/cutting.svg, .pdf or .dxf]
     #[arg(short, long, value_name = "FILE")]

@@ -19,6 +19,9 @@ const STRAIGHT: f64 = 1e-4;
 /// And folded or squared ends want a turn of at least this (radians, 20 degrees):
 /// along a smooth course there is no end.
 const LEAST_TURN: f64 = 0.35;
+/// A free edge that is farther from square to its neighbour than this (radians, 40 degrees) is no hem unless the file
+/// says so: its folded end would be a wing longer than the allowance is wide.
+const OBLIQUE: f64 = 0.7;
 /// Nearer than this (metres) is the same.
 const SAME: f64 = 1e-9;
 
@@ -52,6 +55,9 @@ impl CornerWish {
 /// two equal ones the one that is said counts, and else they make a mitre. `lines` are the cut lines away from the
 /// corner, beyond the runs where these are short.
 pub(super) fn join(a: &SmoothRun, b: &SmoothRun, wishes: [CornerWish; 2], lines: [&[Vec2]; 2]) -> Join {
+    let is_oblique = (turn(a, b) - FRAC_PI_2).abs() > OBLIQUE;
+    let by_itself = |wish: CornerWish| wish.corner == Corner::Folded && !wish.said && is_oblique;
+    let wishes = wishes.map(|wish| if by_itself(wish) { CornerWish::MITRED } else { wish });
     let special = match wishes.map(|wish| wish.corner) {
         [Corner::Mitred, Corner::Mitred] => None,
         [one, other] if one == other => match wishes.map(|wish| wish.said) {

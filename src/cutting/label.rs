@@ -3,7 +3,7 @@
 use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
 use super::{Lettering, Paper, SewKind};
-use crate::geometry::{Path, Vec2, encloses, sides_of};
+use crate::geometry::{Path, Vec2, distance_to_segment, encloses, letter_strokes, sides_of};
 use crate::pattern::{CutKind, LineKind};
 
 /// Largest and smallest height of letters, metres: easily read at arm's length, and the least that home printers draw
@@ -18,8 +18,10 @@ pub const LETTER_WIDTH: f64 = 0.62;
 /// Widths of capitals, and of the letters of East Asian scripts, which are as wide as their type is large.
 const CAPITAL_WIDTH: f64 = 0.90;
 const SQUARE_WIDTH: f64 = 1.40;
-/// The first letter of these scripts.
-const FIRST_SQUARE: char = '\u{2e80}';
+/// Width of the letters of other scripts: a PDF draws them all as wide as this.
+const SCRIPT_WIDTH: f64 = 0.80;
+/// The first letter that is not of a Latin alphabet.
+const FIRST_OF_SCRIPTS: char = '\u{250}';
 /// Distance of lines over the height of letters, and how far some letters reach below their line.
 const LINE: f64 = 1.45;
 const BELOW: f64 = 0.3;
@@ -32,6 +34,10 @@ const AIR_BESIDE: f64 = 0.75;
 const SEAM: f64 = 0.003;
 /// Where along a line words are tried: near its middle first.
 const BESIDE_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.12, 0.88];
+/// Places along a cut line at which the name of its size is tried.
+const TAG_PLACES: u32 = 60;
+/// So many of them the names of sizes begin apart.
+const TAG_STEP: u32 = 7;
 /// Half the width of a drill mark, metres.
 const DRILL: f64 = 0.002;
 /// Longest line of a remark that is written, letters.
@@ -71,6 +77,8 @@ pub struct PieceWords {
     pub(super) lines: Vec<String>,
     /// Seams, each with the index in [`Paper::sew`] of an edge that it takes.
     pub(super) seams: Vec<(usize, String)>,
+    /// The name of its size, beside its cut line.
+    pub(super) tag: Option<String>,
 }
 
 impl PieceWords {
@@ -80,7 +88,7 @@ impl PieceWords {
         lines.extend(heading);
         lines.extend(allowances(widths));
         lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
-        Self { lines, seams: Vec::new() }
+        Self { lines, seams: Vec::new(), tag: None }
     }
 }
 
@@ -106,8 +114,11 @@ pub(super) fn lettering(paper: &Paper, joins: &[[Vec2; 2]]) -> Vec<Lettering> {
     }
     let sewn = sewn(paper);
     let fitted_in = |room: &Room| wordings(lines).iter().find_map(|lines| fitted(room, &sewn, lines));
-    let inside = fitted_in(&clear).or_else(|| fitted_in(&room).filter(|_| !joins.is_empty()));
-    texts.extend(inside.unwrap_or_else(|| under(paper, lines)));
+    if !lines.is_empty() {
+        let inside = fitted_in(&clear).or_else(|| fitted_in(&room).filter(|_| !joins.is_empty()));
+        texts.extend(inside.unwrap_or_else(|| under(paper, lines)));
+    }
+    texts.extend(paper.words.tag.as_ref().and_then(|tag| size_tag(paper, tag, joins)));
     texts.iter().for_each(|t| clear.add_wall(&outline(t)));
     for (line, seam) in &paper.words.seams {
         let text = clear_beside(&clear, &paper.sew[*line].path, seam, SEAM);
@@ -124,6 +135,34 @@ impl Paper {
     }
 }
 
+/// The name of a size on the inner side of its cut line, where that is farthest from those of the other sizes and
+/// clear of all lines.
+fn size_tag(paper: &Paper, tag: &str, joins: &[[Vec2; 2]]) -> Option<Lettering> {
+    let contour = paper.cut.first()?;
+    let mut room = Room { contours: paper.cut.clone(), walls: Vec::new() };
+    paper.others.iter().for_each(|line| room.add_wall(line));
+    let others = room.walls.clone();
+    room.walls.extend(paper.cut.iter().flat_map(|line| sides_of(line)).chain(joins.iter().copied()));
+    paper.sew.iter().for_each(|line| room.add_wall(&line.path.sampled(1e-4)));
+    let path = Path::polyline(contour);
+    // Where sizes are alike their names stand one after the other.
+    let first = paper.size.as_ref().map_or(0, |size| size.number as u32 * TAG_STEP);
+    let places = (first..first + TAG_PLACES).map(|k| (f64::from(k % TAG_PLACES) + 0.5) / f64::from(TAG_PLACES));
+    let apart = |share: f64| {
+        let p = path.point(path.length() * share);
+        others.iter().map(|side| distance_to_segment(p, *side)).fold(f64::INFINITY, f64::min)
+    };
+    let mut places: Vec<(f64, f64)> = places.map(|share| (apart(share), share)).collect();
+    places.sort_by(|a, b| b.0.total_cmp(&a.0));
+    places.into_iter().find_map(|(_, share)| {
+        // The cloth is on the right of a contour that is walked clockwise.
+        [1.0, -1.0].into_iter().find_map(|side| {
+            let (middle, size, upright) = place_beside(&path, tag, SEAM, share, side);
+            room.is_clear(middle, size).then(|| lettering_at(tag, middle, SEAM, upright))
+        })
+    })
+}
+
 /// The lines one under the other, or all in one, for narrow pieces; then without the last, as far as they are not
 /// needed.
 fn wordings(lines: &[String]) -> Vec<Vec<String>> {
@@ -135,7 +174,9 @@ fn wordings(lines: &[String]) -> Vec<Vec<String>> {
 fn sewn(paper: &Paper) -> Vec<[Vec2; 2]> {
     let around = paper.sew.iter().filter(|s| matches!(s.of, SewKind::Outline | SewKind::Hole | SewKind::Dart));
     let lines = around.map(|s| s.path.sampled(1e-4)).chain(paper.fold.map(|fold| fold.to_vec()));
-    lines.flat_map(|line| line.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>()).collect()
+    let smallest = paper.others.iter().take(usize::from(paper.cut.is_empty()));
+    let closed = smallest.flat_map(|contour| sides_of(contour));
+    closed.chain(lines.flat_map(|line| line.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>())).collect()
 }
 
 /// The lines where there is most room for them, if they are legible there and not in an allowance, where nobody sees
@@ -158,9 +199,10 @@ fn under(paper: &Paper, lines: &[String]) -> Vec<Lettering> {
 /// Width of a line over the height of its letters.
 fn wide(line: &str) -> f64 {
     let letter = |c: char| match c {
-        FIRST_SQUARE.. => SQUARE_WIDTH,
         'm' | 'w' | '@' | '%' => CAPITAL_WIDTH,
         c if c.is_uppercase() => CAPITAL_WIDTH,
+        FIRST_OF_SCRIPTS.. if letter_strokes(c).is_none_or(|own| own.is_wide) => SQUARE_WIDTH,
+        FIRST_OF_SCRIPTS.. => SCRIPT_WIDTH,
         _ => LETTER_WIDTH,
     };
     line.chars().map(letter).sum()
@@ -207,7 +249,10 @@ fn write(lines: &[String], middle: Vec2, height: f64, upright: bool) -> Vec<Lett
 fn room(paper: &Paper) -> Room {
     // A half piece is closed by its fold.
     let walls = paper.cut.iter().flat_map(|contour| sides_of(contour)).collect();
-    let mut room = Room { contours: paper.cut.clone(), walls };
+    // The label of a nest is on the smallest of its sizes.
+    let smallest = paper.others.iter().take(usize::from(paper.cut.is_empty()));
+    let mut room = Room { contours: paper.cut.iter().chain(smallest).cloned().collect(), walls };
+    paper.others.iter().for_each(|line| room.add_wall(line));
     for line in &paper.sew {
         room.add_wall(&line.path.sampled(1e-4));
     }
@@ -240,7 +285,7 @@ fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
 fn beside(room: &Room, path: &Path, text: String) -> Lettering {
     clear_beside(room, path, &text, BESIDE).unwrap_or_else(|| {
         let (middle, _, upright) = place_beside(path, &text, BESIDE, 0.5, -1.0);
-        Lettering { text, at: middle + foot(BESIDE, upright), height: BESIDE, upright }
+        lettering_at(&text, middle, BESIDE, upright)
     })
 }
 
@@ -249,12 +294,13 @@ fn clear_beside(room: &Room, path: &Path, text: &str, height: f64) -> Option<Let
     let places =
         BESIDE_AT.iter().flat_map(|&share| [-1.0, 1.0].map(|side| place_beside(path, text, height, share, side)));
     let mut clear = places.filter(|(middle, size, _)| room.is_clear(*middle, *size));
-    clear.next().map(|(middle, _, upright)| Lettering {
-        text: text.to_owned(),
-        at: middle + foot(height, upright),
-        height,
-        upright,
-    })
+    clear.next().map(|(middle, _, upright)| lettering_at(text, middle, height, upright))
+}
+
+/// A text of which the letters, with what reaches below their line, lie round `middle`.
+fn lettering_at(text: &str, middle: Vec2, height: f64, upright: bool) -> Lettering {
+    let at = middle + foot((1.0 - BELOW) * height, upright);
+    Lettering { text: text.to_owned(), at, height, upright }
 }
 
 /// The middle and the size of a text's box beside a line, at a share of its length, and whether it is turned.
@@ -262,7 +308,8 @@ fn place_beside(path: &Path, text: &str, height: f64, share: f64, side: f64) -> 
     let wide = wide(text) * height;
     let t = path.tangent(path.length() * share);
     let upright = t.y.abs() > t.x.abs();
-    let size = if upright { Vec2::new(height, wide) } else { Vec2::new(wide, height) } * (1.0 / AIR_BESIDE);
+    let high = (1.0 + BELOW) * height;
+    let size = if upright { Vec2::new(high, wide) } else { Vec2::new(wide, high) } * (1.0 / AIR_BESIDE);
     let across = Vec2::new(-t.y, t.x) * side;
     // As far off as the corner of its box needs.
     let off = (across.x.abs() * size.x + across.y.abs() * size.y) / 2.0;

@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::Paper;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, box_of};
 
 /// Side of the square to measure after printing, metres.
 pub const TEST_SQUARE: f64 = 0.100;
@@ -60,22 +60,31 @@ pub const CLOTH_LETTERS: [f64; 2] = [0.020, 0.010];
 impl Sheet {
     /// Lays papers out, the highest first.
     pub fn new(papers: &[Paper], layout: &Layout) -> Self {
-        let mut sizes: Vec<Vec2> = papers.iter().map(|p| p.extent()[1] - p.extent()[0]).collect();
+        let groups = groups(papers);
+        let boxes: Vec<[Vec2; 2]> = groups.iter().map(|group| box_of(group.iter().flat_map(|p| p.extent()))).collect();
+        let mut sizes: Vec<Vec2> = boxes.iter().map(|[low, high]| high - low).collect();
         if layout.square {
             sizes.push(Vec2::new(TEST_SQUARE + SQUARE_GAP + INCH_SQUARE, TEST_SQUARE));
         }
         let width = layout.width.map(|w| w - 2.0 * layout.margin);
         let (corners, size) = shelves(&sizes, width, GAP);
         let margin = Vec2::repeat(layout.margin);
-        let put =
-            |(paper, corner): (&Paper, &Vec2)| paper.mapped(Matrix2::identity(), corner + margin - paper.extent()[0]);
+        let shifts = boxes.iter().zip(&corners).map(|([low, _], corner)| corner + margin - low);
+        let put = |(group, shift): (&&[Paper], Vec2)| {
+            group.iter().map(|paper| paper.mapped(Matrix2::identity(), shift)).collect::<Vec<Paper>>()
+        };
         Self {
-            papers: papers.iter().zip(&corners).map(put).collect(),
-            square: layout.square.then(|| corners[papers.len()] + margin),
+            papers: groups.iter().zip(shifts).flat_map(put).collect(),
+            square: layout.square.then(|| corners[groups.len()] + margin),
             size: size + 2.0 * margin,
             cloth: Vec::new(),
         }
     }
+}
+
+/// The papers, those of a nest together.
+fn groups(papers: &[Paper]) -> Vec<&[Paper]> {
+    papers.chunk_by(|one, next| one.nest.is_some() && one.nest == next.nest).collect()
 }
 
 /// Puts boxes of these sizes on shelves, the highest first: their upper left corners and the size of it all. `width`

@@ -10,6 +10,7 @@ mod corner;
 mod label;
 mod layout;
 mod marks;
+mod nest;
 mod offset;
 mod outline;
 mod plan;
@@ -22,6 +23,7 @@ mod whole;
 pub use label::{LETTER_WIDTH, Label, PieceWords};
 pub use layout::{CLOTH_LETTERS, ClothLength, INCH_SQUARE, Layout, SQUARE_GAP, Sheet, TEST_SQUARE, shelves};
 pub use marks::{arrow, grain_arrow};
+pub use nest::{PaperLayer, PaperSize, layers, nested};
 pub use outline::{labelled, papers};
 pub use plan::{LaidPaper, Plan, PlanError, PlanOptions, plan_sheet, plans};
 pub use room::{Room, foot};
@@ -48,17 +50,6 @@ impl Default for CuttingOptions {
     fn default() -> Self {
         Self { allowance: DEFAULT_ALLOWANCE, whole: false }
     }
-}
-
-/// The materials of papers, each once, in the order of the papers.
-pub fn materials(papers: &[Paper]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for paper in papers {
-        if !names.contains(&paper.fabric.as_str()) {
-            names.push(&paper.fabric);
-        }
-    }
-    names
 }
 
 /// A piece on paper.
@@ -99,6 +90,13 @@ pub struct Paper {
     pub texts: Vec<Lettering>,
     /// Allowances of holes for which these are too small.
     pub narrowed: Vec<Narrowed>,
+    /// Number of the piece whose sizes lie over one another, and of which this is a size or the label.
+    pub nest: Option<usize>,
+    /// The size that it is of, in a nest.
+    pub size: Option<PaperSize>,
+    /// Lines of other sizes, which labels keep clear of. Of the label of a nest those of all, the cut line of the
+    /// smallest first.
+    pub others: Vec<Vec<Vec2>>,
 }
 
 /// An allowance that does not fit into its hole, and the one drawn in its place.
@@ -215,6 +213,7 @@ impl Paper {
             marks: self.marks.iter().map(|m| Mark { path: path(&m.path), ..m.clone() }).collect(),
             drills: self.drills.iter().map(|(k, p)| (k.clone(), to(*p))).collect(),
             texts: self.texts.iter().map(|t| Lettering { at: to(t.at), ..t.clone() }).collect(),
+            others: self.others.iter().map(|c| c.iter().map(|&p| to(p)).collect()).collect(),
             ..self.clone()
         }
     }
@@ -224,9 +223,10 @@ impl Paper {
         self.texts.iter().map(|text| box_or_origin(label::outline(text)))
     }
 
-    /// Least and greatest coordinates of its cut lines.
+    /// Least and greatest coordinates of its cut lines; of the label of a nest those of its sizes.
     pub fn bounds(&self) -> [Vec2; 2] {
-        box_or_origin(self.cut.iter().flatten().chain(self.fold.iter().flatten()).copied())
+        let lines = if self.cut.is_empty() { &self.others } else { &self.cut };
+        box_or_origin(lines.iter().flatten().chain(self.fold.iter().flatten()).copied())
     }
 
     /// Bounds as of [`Paper::bounds`], with the lettering beside it.

@@ -15,6 +15,10 @@ use crate::pattern::{Corner, CutKind, Dart, DrawnEdge, DrawnPiece, Side};
 
 /// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
 const LEAST_CUT: f64 = 1e-5;
+/// A free edge that turns by more than this from end to end (radians, 35 degrees) is no hem that is turned up as one.
+const MOST_BENT_HEM: f64 = 0.61;
+/// Places of an edge at which its direction is looked at.
+const BEND_LOOKS: usize = 32;
 /// An allowance that does not fit into its hole is halved so often at most. Then the hole is cut on its sewing line.
 const HALVINGS: i32 = 6;
 
@@ -98,9 +102,10 @@ impl<'a> AllowanceRule<'a> {
         edge.allowance.width.unwrap_or(usual)
     }
 
-    /// Free edges are hems: turned up, their ends must lie on the piece.
+    /// Free edges are hems: turned up, their ends must lie on the piece. Necklines and armholes bend too much to be
+    /// turned up, and folded ends would stick out as wings.
     fn corner(edge: &DrawnEdge) -> Corner {
-        let usual = if edge.is_sewn() { Corner::Mitred } else { Corner::Folded };
+        let usual = if edge.is_sewn() || bend(&edge.path) > MOST_BENT_HEM { Corner::Mitred } else { Corner::Folded };
         edge.allowance.corner.unwrap_or(usual)
     }
 
@@ -128,6 +133,12 @@ impl<'a> AllowanceRule<'a> {
         };
         self.hole_edges().map(row).filter(|n| n.drawn < n.asked).collect()
     }
+}
+
+/// By how much an edge turns on its way, to the left and to the right together, radians.
+fn bend(path: &Path) -> f64 {
+    let tangent = |k: usize| path.tangent(path.length() * k as f64 / BEND_LOOKS as f64);
+    (0..BEND_LOOKS).map(|k| (tangent(k), tangent(k + 1))).map(|(a, b)| a.perp(&b).atan2(a.dot(&b)).abs()).sum()
 }
 
 /// The paper turned so that its warp is upright, by the smaller angle.
@@ -172,6 +183,9 @@ fn paper(rule: &AllowanceRule) -> Paper {
         words: PieceWords::default(),
         texts: Vec::new(),
         narrowed: rule.narrowed(),
+        nest: None,
+        size: None,
+        others: Vec::new(),
     }
 }
 

@@ -117,21 +117,25 @@ fn ends(garment: &Garment, seam: &Seam) -> Vec<[SeamPoint; 2]> {
 
 fn step(garment: &Garment, group: &[usize]) -> SewingStep {
     let seam = &garment.seams[group[0]];
+    let has = |side: Side| group.iter().any(|&k| Side::split(&garment.seams[k].name).1 == Some(side));
+    let both = has(Side::Left) && has(Side::Right);
     let named = |chain: &[Span]| {
         let mut names: Vec<String> = Vec::new();
         for span in chain {
             let piece = &garment.pieces[span.edge.piece];
-            let name = format!("{}.{}", piece.drawn_as, piece.loops[span.edge.ring][span.edge.index].name);
+            let edge = &piece.loops[span.edge.ring][span.edge.index].name;
+            // Of a piece on the fold the edges of each half have its side in their names.
+            let edge = if both { Side::split(edge).0 } else { edge };
+            let name = format!("{}.{edge}", piece.drawn_as);
             if !names.contains(&name) {
                 names.push(name);
             }
         }
         names
     };
-    let has = |side: Side| group.iter().any(|&k| Side::split(&garment.seams[k].name).1 == Some(side));
     let name = Side::split(&seam.name).0.to_owned();
     let give = give(seam.give);
-    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both: has(Side::Left) && has(Side::Right) }
+    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both }
 }
 
 fn give(give: Give) -> String {

@@ -9,6 +9,7 @@ use super::joined::{beyond_seam, nearly_closed, unclosed};
 use super::said::{Said, said};
 use super::sizes::{are_sizes, sizes};
 use super::sorted::Sorted;
+use super::titles::titles;
 use super::trimmed::{parts_within, trimmed};
 use super::{Drawing, Fastener, ImportedNotch, InnerLine, Remark, Role, Stroke, ToldNotch, Traced};
 use crate::geometry::{Path, Vec2};
@@ -42,8 +43,11 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Dr
         let own = |s: &&Stroke| s.size.as_ref().map_or(k == 0, |own| own == size);
         let own: Vec<Stroke> = strokes.iter().filter(own).cloned().collect();
         let mut drawing = one_size(&own, remarks, sheet);
-        for piece in drawing.pieces.iter_mut().filter(|p| !p.name.contains(size.as_str())) {
-            piece.name = format!("{}_{size}", piece.name);
+        for piece in &mut drawing.pieces {
+            piece.size = Some(k);
+            if !piece.name.contains(size.as_str()) {
+                piece.name = format!("{}_{size}", piece.name);
+            }
         }
         all.add(drawing);
     }
@@ -81,9 +85,16 @@ fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Draw
             Some(Said::OnFold(count)) => (None, 1, Some(count)),
             None => (None, 1, None),
         };
-        let (traced, beyond) = piece(contour, &inner, &rest);
+        let (mut traced, beyond) = piece(contour, &inner, &rest);
+        let titles = titles(remarks, |at| contour.holds(at));
+        // Groups and layers that are named tell more than words do.
+        let title = titles.title.filter(|_| traced.name.is_empty());
+        let said_by = [said_by, title.as_ref().map(|(i, _)| *i), titles.number.as_ref().map(|(i, _)| *i)];
+        traced.said_by = said_by.into_iter().flatten().collect();
+        traced.number = titles.number.map(|(_, number)| number);
+        traced.name = title.map_or(traced.name, |(_, title)| title);
         drawing.left_out.extend(beyond_seam(&traced.name, &beyond));
-        drawing.pieces.push(Traced { cut_how, copies, on_fold, said_by, ..traced });
+        drawing.pieces.push(Traced { cut_how, copies, on_fold, size: contours.size(o), ..traced });
     }
     drawing.left_out.extend(contours.too_small(&outer, &mut drawing.lost));
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours.all[o].owns(line));
@@ -136,6 +147,12 @@ impl Patterns {
     fn within(&self, i: usize, k: usize) -> bool {
         let (one, other) = (&self.all[i], &self.all[k]);
         i != k && !(self.sized[i] && self.sized[k]) && (one.lies_in(other) || one.is_drawn_on(other))
+    }
+
+    /// Number of a contour among the sizes that are drawn over one another, the smallest 0.
+    fn size(&self, i: usize) -> Option<usize> {
+        let smaller = |k: &usize| self.sized[*k] && *k != i && self.all[*k].lies_in(&self.all[i]);
+        self.sized[i].then(|| (0..self.all.len()).filter(smaller).count())
     }
 
     /// Those that lie in no other, in the order of the drawing.

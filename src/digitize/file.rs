@@ -77,15 +77,16 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
             file.grain.as_ref().and_then(|g| (Vec2::from(g.value[1]) - Vec2::from(g.value[0])).try_normalize(0.0));
         let material = piece.material.as_ref().map(name_of);
         let mirrored = pair || fold.is_some();
-        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, warp, material });
-        told.push(piece.drawn.is_some());
+        told.push((name.clone(), piece.drawn.is_some()));
+        let size = piece.size;
+        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, warp, material, size });
         pieces.push(file);
         pieces.extend(copies);
     }
-    let (suggestions, guesses) = suggest(&outlines);
-    for ((outline, told), mut guess) in outlines.iter().zip(told).zip(guesses) {
+    let (suggestions, guesses) = suggest(outlines);
+    for ((name, told), mut guess) in told.into_iter().zip(guesses) {
         guess.drawn = guess.drawn.filter(|side| *side == Side::Right && !told);
-        let own = pieces.iter_mut().find(|piece| piece.name.value == outline.piece);
+        let own = pieces.iter_mut().find(|piece| piece.name.value == name);
         notes.extend(own.and_then(|piece| guessed(piece, guess)));
     }
     let file = GarmentFile {
@@ -201,7 +202,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         pleats,
         holes: holes.iter().map(|(name, hole)| (at_no_place(name.clone()), at_no_place(ring(&hole.sew)))).collect(),
         lines: lines(piece, &wedges),
-        note: piece.material.as_ref().and_then(note).map(at_no_place),
+        note: noted(piece).map(at_no_place),
     };
     (file, edges)
 }
@@ -236,6 +237,13 @@ fn fold_of(piece: &PieceFile) -> Option<&str> {
         CutKind::Fold(edge) => Some(edge),
         _ => None,
     }
+}
+
+/// What the drawing says of a piece that a garment file has no key for: its number and its material.
+fn noted(piece: &Traced) -> Option<String> {
+    let number = piece.number.as_ref().map(|number| format!("no. {} of the drawing", plain(number)));
+    let said: Vec<String> = number.into_iter().chain(piece.material.as_ref().and_then(note)).collect();
+    (!said.is_empty()).then(|| said.join(", "))
 }
 
 /// The drawing's own words for a material whose name in the file is another.

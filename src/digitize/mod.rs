@@ -29,6 +29,7 @@ mod sorted;
 mod spikes;
 mod stated;
 mod suggest;
+mod titles;
 mod trimmed;
 
 pub(crate) use chain::nearly_meet;
@@ -113,6 +114,8 @@ pub struct Remark {
     pub at: Vec2,
     /// Their text.
     pub text: String,
+    /// Height of the letters, in any unit that is the same all over the file; 0 where it is not told.
+    pub height: f64,
 }
 
 /// A button or what it goes through.
@@ -241,14 +244,18 @@ pub struct Traced {
     pub copies: usize,
     /// Number of times it is cut on the fold, if that is written on it. The line is [`Self::mirror`], if it is drawn.
     pub on_fold: Option<usize>,
-    /// Number of the remark that says how it is cut.
-    pub said_by: Option<usize>,
+    /// Numbers of the remarks that were read of it: how it is cut, its title, its number.
+    pub said_by: Vec<usize>,
+    /// Its number among the pieces of the pattern, as it is written on it.
+    pub number: Option<String>,
     /// The drawn one of a pair, or the drawn half, if the drawing tells.
     pub drawn: Option<Side>,
     /// Its material.
     pub material: Option<Material>,
     /// Endings of edges' allowances at corners, by the edges' names, if the file tells them.
     pub corners: Vec<(String, Corner)>,
+    /// Number of its size, where sizes are drawn over one another: pieces of two sizes are never sewn to each other.
+    pub size: Option<usize>,
 }
 
 impl Traced {

@@ -24,7 +24,7 @@ const OPPOSITE: f64 = 0.012;
 pub(super) enum ChainEnds {
     /// It goes all round.
     Closed,
-    /// From fold to fold.
+    /// From the middle of the wearer to the middle: from fold to fold, or to a center seam.
     Folds,
     Open,
 }
@@ -38,6 +38,8 @@ pub(super) struct RunChain {
     marks: Vec<RunNotch>,
     joints: Vec<f64>,
     ends: ChainEnds,
+    /// Whether its start and its end are in the middle of the wearer.
+    middles: [bool; 2],
     /// Mean of how far its runs lie within their pieces beside their chords.
     hollow: f64,
 }
@@ -81,23 +83,25 @@ impl ChainBook<'_> {
             joints.push(done);
         }
         joints.pop();
-        let ends = match (runs.first(), runs.last()) {
+        let (ends, middles) = match (runs.first(), runs.last()) {
             (Some(&first), Some(&last)) => self.ends(first, last),
-            _ => ChainEnds::Open,
+            _ => (ChainEnds::Open, [false; 2]),
         };
-        RunChain { runs: runs.to_vec(), length: done, marks, joints, ends, hollow }
+        RunChain { runs: runs.to_vec(), length: done, marks, joints, ends, middles, hollow }
     }
 
-    fn ends(&self, (first, forward): (usize, bool), (last, on): (usize, bool)) -> ChainEnds {
+    fn ends(&self, (first, forward): (usize, bool), (last, on): (usize, bool)) -> (ChainEnds, [bool; 2]) {
         let (entry, exit) = (self.outer(first, !forward), self.outer(last, on));
-        let at_fold = |run: usize, at_end: bool| self.sewn.lies_on_fold(self.sewn.beside(&self.runs[run], at_end));
-        if self.sewn.partners(exit).contains(&entry) {
+        let is_middle = |run: usize, at_end: bool| self.sewn.is_middle(self.sewn.beside(&self.runs[run], at_end));
+        let middles = [is_middle(first, !forward), is_middle(last, on)];
+        let ends = if self.sewn.partners(exit).contains(&entry) {
             ChainEnds::Closed
-        } else if at_fold(first, !forward) && at_fold(last, on) {
+        } else if middles == [true; 2] {
             ChainEnds::Folds
         } else {
             ChainEnds::Open
-        }
+        };
+        (ends, middles)
     }
 
     /// The end of a run's own edge at its start or its end.
@@ -220,10 +224,14 @@ impl ChainBook<'_> {
             (ChainEnds::Closed, ChainEnds::Open) if self.closing(&found.b).is_some() => {
                 found.add(1.25, "it closes the ring that the other is sewn into");
             }
-            (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from fold to fold"),
+            (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from middle to middle"),
             (ChainEnds::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
             (ChainEnds::Closed | ChainEnds::Folds, _) | (_, ChainEnds::Closed | ChainEnds::Folds) => found.score -= 1.0,
-            _ => {}
+            _ => match [found.a.middles, found.b.middles] {
+                [[false, false], _] | [_, [false, false]] => {}
+                [a, b] if a == b => found.add(1.0, "both begin in the middle"),
+                _ => found.score -= 1.0,
+            },
         }
     }
 

@@ -14,6 +14,10 @@ const ALIKE: f64 = 0.2;
 /// necklines and armholes. With 0.11, which sides that are nipped in at the waist need, two of 17 seams offered for the
 /// shipped patterns were wrong, and none of 18 with this.
 const HOLLOW: f64 = 0.04;
+/// Long runs along the grain may both be hollow up to this: sides that are nipped in at the waist, and the seams of a
+/// two-part sleeve at the elbow. Necklines and armholes are shorter than this (metres).
+const NIPPED: f64 = 0.09;
+const NIPPED_LENGTH: f64 = 0.3;
 /// Runs that are sewn together lie alike to the grain, to this (radians, 12 degrees); farther apart than the second (45
 /// degrees) they seldom are.
 const TO_GRAIN: [f64; 2] = [0.21, 0.79];
@@ -58,7 +62,11 @@ impl Match {
 pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance: Tolerance) -> Vec<Match> {
     let off = (a.length() - b.length()).abs();
     let most = tolerance.of(a.length().max(b.length()));
-    if off > most || a.hollow().min(b.hollow()) > HOLLOW || a.hollow().max(b.hollow()) < BULGING {
+    let is_side = |run: &EdgeRun| {
+        run.length() >= NIPPED_LENGTH && to_grain(outlines, run).is_some_and(|angle| angle <= TO_GRAIN[0])
+    };
+    let hollow = if is_side(a) && is_side(b) { NIPPED } else { HOLLOW };
+    if off > most || a.hollow().min(b.hollow()) > hollow || a.hollow().max(b.hollow()) < BULGING {
         return Vec::new();
     }
     // Right sides lie together where both are walked against each other; else one of them must be a mirror image.

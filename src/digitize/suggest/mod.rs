@@ -13,6 +13,8 @@ mod run;
 mod sewn;
 mod written;
 
+use std::f64::consts::FRAC_PI_4;
+
 use super::edges::FileEdge;
 use crate::geometry::Vec2;
 use crate::pattern::{DEFAULT_TOLERANCE, PlaceMeaning, PlaceWord};
@@ -81,6 +83,8 @@ pub(super) struct Outline {
     pub(super) warp: Option<Vec2>,
     /// The material it is cut from, if that is told.
     pub(super) material: Option<String>,
+    /// Number of its size, where sizes are drawn over one another.
+    pub(super) size: Option<usize>,
 }
 
 /// The tolerance of lengths.
@@ -104,8 +108,27 @@ const EXACT: f64 = 3e-4;
 /// Largest difference of two lengths that may be sewn, from how far those of the seams differ that are sure.
 const SLACK: f64 = 3.0;
 
-/// The seams that pieces may have, those that most speaks for first, and a guess for each piece.
-pub(super) fn suggest(outlines: &[Outline]) -> (Vec<Suggestion>, Vec<Guess>) {
+/// The seams that pieces may have, those that most speaks for first, and a guess for each piece. Each size is sewn by
+/// itself.
+pub(super) fn suggest(outlines: Vec<Outline>) -> (Vec<Suggestion>, Vec<Guess>) {
+    let mut sizes: Vec<Option<usize>> = outlines.iter().map(|outline| outline.size).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let (mut suggestions, mut guesses) = (Vec::new(), vec![Guess::default(); outlines.len()]);
+    let mut outlines: Vec<(usize, Outline)> = outlines.into_iter().enumerate().collect();
+    for size in sizes {
+        let (own, rest): (Vec<_>, Vec<_>) = outlines.into_iter().partition(|(_, outline)| outline.size == size);
+        outlines = rest;
+        let (numbers, own): (Vec<usize>, Vec<Outline>) = own.into_iter().unzip();
+        let (seams, guessed) = of_one_size(&own);
+        suggestions.extend(seams);
+        numbers.into_iter().zip(guessed).for_each(|(k, guess)| guesses[k] = guess);
+    }
+    suggestions.sort_by(|a: &Suggestion, b| b.score.total_cmp(&a.score));
+    (suggestions, guesses)
+}
+
+fn of_one_size(outlines: &[Outline]) -> (Vec<Suggestion>, Vec<Guess>) {
     if outlines.iter().map(|outline| outline.edges.len()).sum::<usize>() > MOST_EDGES {
         return (Vec::new(), vec![Guess::default(); outlines.len()]);
     }
@@ -140,6 +163,8 @@ fn found(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Sewabl
     let (middle, sides): (Vec<EdgeRun>, Vec<EdgeRun>) =
         runs.iter().cloned().partition(|run| is_center(outlines, runs, run));
     let mut sewn = SeamsFound::new(outlines);
+    let sure = middle.iter().filter(|run| is_sure_center(outlines, run));
+    sewn.centers = sure.flat_map(|run| run.edges.iter().map(|&edge| (run.piece, edge))).collect();
     let mut chained: Vec<ChainMatch> = Vec::new();
     let candidates = candidates(outlines, &sides, tolerance);
     let is_whole = |own: &EdgeRun| sides.iter().any(|run| run.piece == own.piece && run.edges == own.edges);
@@ -222,7 +247,9 @@ fn best(
         .count();
     // Whatever else has two sides alike is sewn to others along them.
     let is_cap = |run: &EdgeRun| run.hollow() < CAP && lies_between(outlines, run, a, b);
-    let round_cap = a.piece == b.piece && parts == 0 && runs.iter().any(is_cap);
+    let goes_down = |run: &EdgeRun| to_grain(outlines, run).is_none_or(|angle| angle <= FRAC_PI_4);
+    let down = goes_down(a) && goes_down(b);
+    let round_cap = a.piece == b.piece && parts == 0 && down && runs.iter().any(is_cap);
     if a.piece == b.piece && !round_cap {
         return None;
     }
@@ -349,12 +376,19 @@ fn sorted(found: &ChainMatch) -> Vec<usize> {
     runs
 }
 
+/// Whether the center of a pair is surely sewn: it is called so, or it is that of a back.
+fn is_sure_center(outlines: &[Outline], run: &EdgeRun) -> bool {
+    let outline = &outlines[run.piece];
+    run.edges.iter().all(|&k| says(&outline.edges[k].name, &CENTER)) || says(&outline.piece, &[BACK])
+}
+
 /// A seam between the halves of a pair down its center, and what speaks for it.
 fn center(outlines: &[Outline], run: &EdgeRun) -> (EdgeRun, f64, String) {
-    let outline = &outlines[run.piece];
-    let called = run.edges.iter().all(|&k| says(&outline.edges[k].name, &CENTER)) || says(&outline.piece, &[BACK]);
-    let (points, reason) =
-        if called { (BY_NAME, "center of a pair") } else { (BY_COURSE, "along the grain, if it is not left open") };
+    let (points, reason) = if is_sure_center(outlines, run) {
+        (BY_NAME, "center of a pair")
+    } else {
+        (BY_COURSE, "along the grain, if it is not left open")
+    };
     (run.clone(), points, reason.to_owned())
 }
 

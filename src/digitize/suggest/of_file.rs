@@ -11,7 +11,7 @@ use crate::pattern::{AllowanceFile, CutKind, GarmentFile, PieceFile, Unit, whole
 pub fn suggestions(file: &GarmentFile) -> Vec<Suggestion> {
     let pieces = whole_pieces(file);
     let outlines: Vec<Outline> = pieces.iter().filter_map(|piece| outline(piece, file.unit())).collect();
-    let (mut found, _) = suggest(&outlines);
+    let (mut found, _) = suggest(outlines);
     let sewn: Vec<String> =
         file.seams.iter().flat_map(|seam| seam.sew.iter().chain(&seam.to)).map(|edge| bare(&edge.value)).collect();
     let names: Vec<&str> = file.seams.iter().map(|seam| seam.name.value.as_str()).collect();
@@ -67,6 +67,7 @@ fn outline(piece: &PieceFile, unit: Unit) -> Option<Outline> {
         pair,
         warp: arrow.and_then(|[tail, head]| (head - tail).try_normalize(0.0)),
         material: piece.fabric.as_ref().map(|fabric| fabric.value.clone()),
+        size: None,
     })
 }
 

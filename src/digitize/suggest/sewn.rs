@@ -26,11 +26,13 @@ pub(super) struct EdgeEnd {
 pub(super) struct SeamsFound<'o> {
     outlines: &'o [Outline],
     pub(super) seams: Vec<Match>,
+    /// Pieces and numbers of edges that are surely the center of a pair.
+    pub(super) centers: Vec<(usize, usize)>,
 }
 
 impl<'o> SeamsFound<'o> {
     pub(super) fn new(outlines: &'o [Outline]) -> Self {
-        Self { outlines, seams: Vec::new() }
+        Self { outlines, seams: Vec::new(), centers: Vec::new() }
     }
 
     /// Whether a seam has an edge of a run.
@@ -64,6 +66,11 @@ impl<'o> SeamsFound<'o> {
 
     pub(super) fn lies_on_fold(&self, end: EdgeEnd) -> bool {
         is_fold(&self.outlines[end.piece], end.edge)
+    }
+
+    /// Whether an edge is in the middle of the wearer: on the fold, or sewn to its mirror image.
+    pub(super) fn is_middle(&self, end: EdgeEnd) -> bool {
+        self.lies_on_fold(end) || self.centers.contains(&(end.piece, end.edge))
     }
 
     /// Angle inside a piece where an edge begins or ends.

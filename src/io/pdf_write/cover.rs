@@ -1,9 +1,7 @@
 //! The first pages: what is to be measured, joined and cut, and in what order it is sewn.
 
-use pdf_writer::Content;
-
 use super::Page;
-use super::draw::PagePen;
+use super::draw::{PageContent, PagePen};
 use super::pages::{FieldPlan, LETTERS, field_name};
 use crate::cutting::{INCH_SQUARE, LETTER_WIDTH, Paper, TEST_SQUARE};
 use crate::geometry::Vec2;
@@ -22,7 +20,7 @@ const LINE: f64 = 1.7;
 const GAP: f64 = 0.010;
 
 /// The title, how to print and to join, the squares, the pieces, and the plan of the pages.
-pub(super) fn cover(title: &str, papers: &[Paper], plan: &FieldPlan, page: Page) -> Content {
+pub(super) fn cover(title: &str, papers: &[Paper], plan: &FieldPlan, page: Page) -> PageContent {
     let mut pen = PagePen::new(page.height, Vec2::repeat(MARGIN));
     let room = Vec2::new(page.width, page.height) - Vec2::repeat(2.0 * MARGIN);
     let mut line = TITLE;
@@ -50,7 +48,7 @@ pub(super) fn cover(title: &str, papers: &[Paper], plan: &FieldPlan, page: Page)
 /// How many are cut of what, as far as there is room between two heights.
 fn list(pen: &mut PagePen, papers: &[Paper], [from, to]: [f64; 2]) {
     let rows = ((to - from) / (LINE * LETTERS)) as usize;
-    for (k, paper) in papers.iter().enumerate().take(rows) {
+    for (k, paper) in papers.iter().filter(|paper| paper.size.is_none()).enumerate().take(rows) {
         let words = format!("{}: {}, {}", paper.name, paper.count, paper.fabric);
         let at = Vec2::new(0.0, from + (k as f64 + 1.0) * LINE * LETTERS);
         pen.text(&crate::input::shown(&words, 50), at, LETTERS, false, false);
@@ -58,7 +56,7 @@ fn list(pen: &mut PagePen, papers: &[Paper], [from, to]: [f64; 2]) {
 }
 
 /// The order of sewing, on as many pages as it takes.
-pub(super) fn sewing(steps: &[String], page: Page) -> Vec<Content> {
+pub(super) fn sewing(steps: &[String], page: Page) -> Vec<PageContent> {
     let room = Vec2::new(page.width, page.height) - Vec2::repeat(2.0 * MARGIN);
     let most = (room.x / (LETTER_WIDTH * LETTERS)) as usize;
     let numbered = steps.iter().enumerate().flat_map(|(k, step)| wrapped(&format!("{}  {step}", k + 1), most));
@@ -67,7 +65,7 @@ pub(super) fn sewing(steps: &[String], page: Page) -> Vec<Content> {
     lines.chunks(rows.max(1)).map(|lines| steps_page(lines, page)).collect()
 }
 
-fn steps_page(lines: &[String], page: Page) -> Content {
+fn steps_page(lines: &[String], page: Page) -> PageContent {
     let mut pen = PagePen::new(page.height, Vec2::repeat(MARGIN));
     pen.text("Order of sewing", Vec2::new(0.0, TITLE), TITLE, false, false);
     for (k, line) in lines.iter().enumerate() {

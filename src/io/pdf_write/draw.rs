@@ -1,11 +1,14 @@
 //! Lines and letters on a page.
 
+use std::collections::BTreeSet;
+
 use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
+use super::letters::{CAPITALS, drawn_letters, font_runs, width};
 use crate::cutting::{
-    CLOTH_LETTERS, ClothLength, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
-    materials,
+    CLOTH_LETTERS, ClothLength, INCH_SQUARE, MarkKind, Paper, PaperLayer, PaperSize, SQUARE_GAP, SewKind, Sheet,
+    TEST_SQUARE, grain_arrow, layers,
 };
 use crate::geometry::{Path, Vec2};
 
@@ -15,22 +18,13 @@ const FINE: f32 = 0.7;
 /// Dashes of the sewing line and of the fold, points.
 const SEWN: [f32; 2] = [8.0, 5.0];
 const FOLD: [f32; 4] = [24.0, 6.0, 4.0, 6.0];
+/// Dashes of the cut lines of sizes that are drawn over one another, points.
+const SIZES: [&[f32]; 6] =
+    [&[], &[9.0, 4.0], &[9.0, 4.0, 1.0, 4.0], &[4.0, 3.0], &[9.0, 3.0, 1.0, 3.0, 1.0, 3.0], &[1.0, 3.0]];
 /// Half the arms of a drill mark's cross, metres.
 const DRILL: f64 = 0.002;
 /// How far chords may be from the curves they stand for where only the page counts, metres.
 const CHORDS: f64 = 1e-4;
-/// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other
-/// letters are about as wide as an `n`.
-const WIDTHS: [u16; 95] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
-    556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
-    722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556,
-    556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334,
-    260, 334, 584,
-];
-const OTHER_WIDTH: u16 = 556;
-/// Height of the capitals of Helvetica over its size.
-const CAPITALS: f64 = 0.72;
 
 /// The name by which pages speak of a layer.
 pub(super) fn layer_name(layer: usize) -> String {
@@ -44,6 +38,15 @@ pub(super) struct PagePen {
     height: f64,
     /// Where on the page the drawing's origin lies.
     origin: Vec2,
+    /// The letters on it that are drawn as strokes.
+    letters: BTreeSet<char>,
+}
+
+/// A page that is drawn.
+pub(super) struct PageContent {
+    pub(super) content: Content,
+    /// The letters on it that are drawn as strokes.
+    pub(super) letters: BTreeSet<char>,
 }
 
 impl PagePen {
@@ -51,11 +54,11 @@ impl PagePen {
         let mut content = Content::new();
         content.set_line_cap(pdf_writer::types::LineCapStyle::RoundCap);
         content.set_line_join(pdf_writer::types::LineJoinStyle::RoundJoin);
-        Self { content, height, origin }
+        Self { content, height, origin, letters: BTreeSet::new() }
     }
 
-    pub(super) fn finish(self) -> Content {
-        self.content
+    pub(super) fn finish(self) -> PageContent {
+        PageContent { content: self.content, letters: self.letters }
     }
 
     /// Nothing is drawn outside of this any more, until [`PagePen::unclip`].
@@ -93,6 +96,17 @@ impl PagePen {
         }
     }
 
+    /// A cut line, in the dashes of its size.
+    fn cut(&mut self, points: &[Vec2], open: bool, size: Option<&PaperSize>) {
+        self.style(CUT, size.map_or(&[], |size| SIZES[size.number % SIZES.len()]));
+        self.trace(points);
+        if open {
+            self.content.stroke()
+        } else {
+            self.content.close_and_stroke()
+        };
+    }
+
     pub(super) fn line(&mut self, points: &[Vec2], fine: bool) {
         self.style(if fine { FINE } else { CUT }, &[]);
         self.trace(points);
@@ -123,24 +137,28 @@ impl PagePen {
 
     /// A line of text with its foot at `at`: begun there, or (`centred`) its middle there.
     pub(super) fn text(&mut self, words: &str, at: Vec2, height: f64, centred: bool, upright: bool) {
-        let letters = windows_letters(words);
         let size = height / CAPITALS;
-        let back = if centred { width(&letters) * size / 2.0 } else { 0.0 };
+        let back = if centred { width(words) * size / 2.0 } else { 0.0 };
         let along = if upright { Vec2::y() } else { Vec2::x() };
         let [x, y] = self.place(at - along * back);
         let matrix = if upright { [0.0, -1.0, 1.0, 0.0, x, y] } else { [1.0, 0.0, 0.0, 1.0, x, y] };
-        self.content.begin_text().set_font(Name(b"F"), (size * POINTS) as f32).set_text_matrix(matrix);
-        self.content.show(Str(&letters)).end_text();
+        self.content.begin_text().set_text_matrix(matrix);
+        for run in font_runs(words) {
+            self.content.set_font(Name(run.font.as_bytes()), (size * POINTS) as f32).show(Str(&run.codes));
+        }
+        self.content.end_text();
+        self.letters.extend(drawn_letters(words));
     }
 
     /// The parts of a sheet that lie in the box from `low` to `high`, or touch it.
     pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
         sheet.cloth.iter().for_each(|cloth| self.cloth(cloth));
-        let materials = materials(&sheet.papers);
+        let layers = layers(&sheet.papers);
         for paper in &sheet.papers {
             let [least, greatest] = paper.extent();
             if (0..2).all(|k| least[k] <= high[k] && greatest[k] >= low[k]) {
-                let layer = materials.iter().position(|m| *m == paper.fabric).unwrap_or(0);
+                let own = PaperLayer::of(paper);
+                let layer = layers.iter().position(|layer| *layer == own).unwrap_or(0);
                 let name = layer_name(layer);
                 self.content.begin_marked_content_with_properties(Name(b"OC")).properties_named(Name(name.as_bytes()));
                 self.paper(paper);
@@ -184,11 +202,7 @@ impl PagePen {
 
     fn paper(&mut self, paper: &Paper) {
         for (i, contour) in paper.cut.iter().enumerate() {
-            if i == 0 && paper.fold.is_some() {
-                self.line(contour, false);
-            } else {
-                self.closed(contour, false);
-            }
+            self.cut(contour, i == 0 && paper.fold.is_some(), paper.size.as_ref());
         }
         if let Some(fold) = paper.fold {
             self.style(CUT, &FOLD);
@@ -209,7 +223,10 @@ impl PagePen {
             self.line(&[at - Vec2::x() * DRILL, at + Vec2::x() * DRILL], true);
             self.line(&[at - Vec2::y() * DRILL, at + Vec2::y() * DRILL], true);
         }
-        self.line(&grain_arrow(paper.grain), true);
+        // A nest has one, beside its label.
+        if paper.size.is_none() {
+            self.line(&grain_arrow(paper.grain), true);
+        }
         for t in &paper.texts {
             self.text(&t.text, t.at, t.height, true, t.upright);
         }
@@ -238,36 +255,8 @@ pub(super) fn lines(paper: &Paper) -> Vec<[Vec2; 2]> {
     for t in &paper.texts {
         let along = if t.upright { Vec2::y() } else { Vec2::x() };
         let up = Vec2::new(along.y, -along.x) * t.height;
-        let half = along * (width(&windows_letters(&t.text)) * t.height / CAPITALS / 2.0);
+        let half = along * (width(&t.text) * t.height / CAPITALS / 2.0);
         add(&[t.at - half, t.at + half, t.at + half + up, t.at - half + up, t.at - half]);
     }
     lines
-}
-
-/// Width of letters set in size 1.
-fn width(letters: &[u8]) -> f64 {
-    let one = |&l: &u8| WIDTHS.get(usize::from(l).wrapping_sub(32)).copied().unwrap_or(OTHER_WIDTH);
-    letters.iter().map(|l| f64::from(one(l))).sum::<f64>() / 1000.0
-}
-
-/// The letters of a text that are printed as `?`.
-pub(super) fn unprintable(text: &str) -> impl Iterator<Item = char> + '_ {
-    text.chars().filter(|c| *c != '?' && windows_letters(c.encode_utf8(&mut [0; 4])) == [b'?'])
-}
-
-/// Text in code page 1252; letters it does not have become `?`.
-fn windows_letters(text: &str) -> Vec<u8> {
-    let letter = |c: char| match c {
-        ' '..='~' | '\u{a0}'..='\u{ff}' => c as u32 as u8,
-        '–' => 0x96,
-        '—' => 0x97,
-        '…' => 0x85,
-        '€' => 0x80,
-        '‘' => 0x91,
-        '’' => 0x92,
-        '“' => 0x93,
-        '”' => 0x94,
-        _ => b'?',
-    };
-    text.chars().map(letter).collect()
 }

@@ -1,19 +1,22 @@
 //! Patterns for cutting as PDF: pages to be joined, or one page; the only user of pdf-writer.
 //!
-//! Every material is a layer (optional content) that readers switch on and off. Sizes are true: one millimetre is
-//! 72/25.4 points, no scaling. Lettering is in Helvetica, which every reader has, and in the letters it has (Windows
-//! code page 1252).
+//! Every material, and every size of it, is a layer (optional content) that readers switch on and off. Lengths are
+//! true: one millimetre is 72/25.4 points, no scaling. Lettering is in Helvetica, which every reader has; letters of
+//! other scripts are drawn as strokes in fonts of the file's own, and can be searched.
 
 mod cover;
 mod draw;
+mod letters;
 mod pages;
 
 use pdf_writer::writers::Catalog;
-use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, TextStr};
+use pdf_writer::{Finish as _, Name, Pdf, Rect, Ref, TextStr};
 
 pub use pages::{booklet, one_page, tiled};
 
-use crate::cutting::Paper;
+use draw::PageContent;
+
+use crate::cutting::{Paper, PaperLayer};
 
 /// Points per metre.
 const POINTS: f64 = 72.0 / 0.0254;
@@ -62,39 +65,46 @@ pub enum PdfError {
     },
 }
 
-/// The letters of what is written on papers, and of `more`, that the PDF's font has not, each once; they are printed as
+/// The letters of what is written on papers, and of `more`, that no font of the PDF has, each once; they are printed as
 /// `?`.
 pub fn unprintable(papers: &[Paper], more: &[String]) -> Vec<char> {
     let texts =
         papers.iter().flat_map(|paper| paper.texts.iter().map(|t| t.text.as_str()).chain([paper.name.as_str()]));
-    let mut letters: Vec<char> = texts.chain(more.iter().map(String::as_str)).flat_map(draw::unprintable).collect();
-    letters.sort_unstable();
-    letters.dedup();
-    letters
+    let mut missing: Vec<char> = texts.chain(more.iter().map(String::as_str)).flat_map(letters::unprintable).collect();
+    missing.sort_unstable();
+    missing.dedup();
+    missing
 }
 
 /// Pages of one size as a PDF file, with the `layers` that their content is marked with. The same pages give the
 /// same bytes.
-fn document(title: &str, [width, height]: [f64; 2], pages: Vec<Content>, layers: &[&str]) -> Vec<u8> {
+fn document(title: &str, [width, height]: [f64; 2], pages: Vec<PageContent>, layers: &[PaperLayer]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     let (catalog, tree, font, info) = (Ref::new(1), Ref::new(2), Ref::new(3), Ref::new(4));
     let id = |k: usize, of: usize| Ref::new((5 + 2 * k + of) as i32);
     let layer = |k: usize| id(pages.len(), k);
     let shown: Vec<Ref> = (0..layers.len()).map(layer).collect();
     with_layers(pdf.catalog(catalog).pages(tree), &shown);
-    for (name, id) in layers.iter().zip(&shown) {
+    for (layer, id) in layers.iter().zip(&shown) {
         let mut group = pdf.indirect(*id).dict();
         group.pair(Name(b"Type"), Name(b"OCG"));
-        group.pair(Name(b"Name"), TextStr(name));
+        group.pair(Name(b"Name"), TextStr(&layer.words()));
     }
     pdf.pages(tree).kids((0..pages.len()).map(|k| id(k, 0))).count(pages.len() as i32);
-    let name = Name(b"F");
-    for (k, content) in pages.into_iter().enumerate() {
+    let letters = pages.iter().flat_map(|page| page.letters.iter().copied()).collect();
+    let mut next = id(pages.len(), layers.len());
+    let mut fonts = letters::write_fonts(&mut pdf, &letters, &mut next);
+    fonts.push((letters::HELVETICA.to_owned(), font));
+    for (k, PageContent { content, .. }) in pages.into_iter().enumerate() {
         let mut page = pdf.page(id(k, 0));
         page.media_box(Rect::new(0.0, 0.0, (width * POINTS) as f32, (height * POINTS) as f32));
         page.parent(tree).contents(id(k, 1));
         let mut resources = page.resources();
-        resources.fonts().pair(name, font);
+        let mut named = resources.fonts();
+        for (name, font) in &fonts {
+            named.pair(Name(name.as_bytes()), *font);
+        }
+        named.finish();
         let mut properties = resources.insert(Name(b"Properties")).dict();
         for (k, id) in shown.iter().enumerate() {
             properties.pair(Name(draw::layer_name(k).as_bytes()), *id);

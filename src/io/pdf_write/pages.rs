@@ -1,11 +1,9 @@
 //! Sheets on pages.
 
-use pdf_writer::Content;
-
 use super::cover::{cover, sewing};
-use super::draw::{PagePen, lines};
+use super::draw::{PageContent, PagePen, lines};
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
-use crate::cutting::{Layout, Paper, Sheet, materials};
+use crate::cutting::{LETTER_WIDTH, Layout, Paper, Sheet, layers};
 use crate::geometry::Vec2;
 
 /// The margin that home printers leave white at every side, metres, with a little to spare.
@@ -16,6 +14,13 @@ const OVERLAP: f64 = 0.010;
 const MATCH: f64 = 0.004;
 /// Lines that end within this of a frame, metres, are on the pages at both of its sides: half the width of a cut line.
 const TOUCH: f64 = 2.5e-4;
+/// Space round the names on a page, metres, and how far apart the places are that are tried for one, and their number
+/// to either side.
+const NAME_AIR: f64 = 0.0007;
+const NAME_STEP: f64 = 0.004;
+const NAME_PLACES: u32 = 20;
+/// Rows of such places.
+const NAME_ROWS: u32 = 4;
 /// More pages than this are a wrong unit.
 const MOST_PAGES: usize = 600;
 /// Letters of the first page and of the pages' names, metres.
@@ -31,7 +36,7 @@ pub fn one_page(title: &str, sheet: &Sheet) -> Result<Vec<u8>, PdfError> {
     }
     let mut pen = PagePen::new(sheet.size.y, Vec2::zeros());
     pen.sheet(sheet, [Vec2::zeros(), sheet.size]);
-    Ok(document(title, [sheet.size.x, sheet.size.y], vec![pen.finish()], &materials(&sheet.papers)))
+    Ok(document(title, [sheet.size.x, sheet.size.y], vec![pen.finish()], &layers(&sheet.papers)))
 }
 
 /// Pages to be joined: the first has the test square, the plan of the pages and what to cut; then a page for every
@@ -61,7 +66,7 @@ pub fn booklet(title: &str, papers: &[Paper], steps: &[String], page: Page) -> R
             pages.push(tile(&plan, row, column, page));
         }
     }
-    Ok(document(title, [page.width, page.height], pages, &materials(&plan.sheet.papers)))
+    Ok(document(title, [page.width, page.height], pages, &layers(&plan.sheet.papers)))
 }
 
 /// A sheet cut into fields.
@@ -71,6 +76,8 @@ pub(super) struct FieldPlan {
     pub(super) columns: usize,
     pub(super) rows: usize,
     used: Vec<bool>,
+    /// All that is drawn, as segments.
+    lines: Vec<[Vec2; 2]>,
 }
 
 impl FieldPlan {
@@ -97,8 +104,8 @@ impl FieldPlan {
         let layout = Layout { width: Some(columns as f64 * frame.x), margin: 0.0, square: false };
         let sheet = Sheet::new(papers, &layout);
         let (columns, rows) = (fields(sheet.size.x, frame.x), fields(sheet.size.y, frame.y));
-        let mut plan = Self { sheet, frame, columns, rows, used: Vec::new() };
-        plan.used = plan.drawn_on();
+        let mut plan = Self { sheet, frame, columns, rows, used: Vec::new(), lines: Vec::new() };
+        plan.look();
         plan
     }
 
@@ -112,8 +119,19 @@ impl FieldPlan {
                 *paper = paper.lettered_clear_of(&joins(paper.extent(), frame));
             }
         }
-        self.used = self.drawn_on();
+        self.look();
         self
+    }
+
+    /// Finds what is drawn, and on which fields.
+    fn look(&mut self) {
+        self.lines = self.sheet.papers.iter().flat_map(lines).collect();
+        self.used = self.drawn_on();
+    }
+
+    /// Whether nothing is drawn in a box on the sheet.
+    fn is_clear(&self, low: Vec2, high: Vec2) -> bool {
+        !self.lines.iter().any(|[a, b]| segment_meets(*a, *b, low, high))
     }
 
     pub(super) fn pages(&self) -> usize {
@@ -138,7 +156,7 @@ impl FieldPlan {
             let field = |x: f64| ((x / of).max(0.0) as usize).min(count - 1);
             field(from - TOUCH)..=field(to + TOUCH)
         };
-        for [a, b] in self.sheet.papers.iter().flat_map(lines) {
+        for &[a, b] in &self.lines {
             for row in reach(a.y.min(b.y), a.y.max(b.y), self.frame.y, self.rows) {
                 for column in reach(a.x.min(b.x), a.x.max(b.x), self.frame.x, self.columns) {
                     let low = self.corner(row, column) - Vec2::repeat(TOUCH);
@@ -204,7 +222,7 @@ pub(super) fn field_name(row: usize, column: usize) -> String {
     format!("{letters}{}", column + 1)
 }
 
-fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> Content {
+fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> PageContent {
     let inset = Vec2::repeat(MARGIN + OVERLAP / 2.0);
     let corner = plan.corner(row, column);
     let mut pen = PagePen::new(page.height, inset - corner);
@@ -215,8 +233,31 @@ fn tile(plan: &FieldPlan, row: usize, column: usize, page: Page) -> Content {
     pen.moved_to(inset);
     marks(&mut pen, plan, row, column);
     let name = field_name(row, column);
-    pen.text(&name, Vec2::new(2.0 * MATCH, LETTERS + 0.002), LETTERS, false, false);
+    let at = Vec2::new(3.0 * MATCH, LETTERS + 0.002);
+    pen.text(&name, clear_place(plan, corner, at, Vec2::x(), (&name, LETTERS)), LETTERS, true, false);
     pen.finish()
+}
+
+/// Where on a page a name is clear of all lines: at `at`, or as near to that along `along`, one of the axes, as there
+/// is such a place.
+/// Where there is none it stays.
+fn clear_place(plan: &FieldPlan, corner: Vec2, at: Vec2, along: Vec2, (name, height): (&str, f64)) -> Vec2 {
+    let half = LETTER_WIDTH * height * name.chars().count() as f64 / 2.0 + NAME_AIR;
+    let is_clear = |at: &Vec2| {
+        let (low, high) = (at - Vec2::new(half, height + NAME_AIR), at + Vec2::new(half, NAME_AIR));
+        let on_page = low.min() > 0.0 && (0..2).all(|k| high[k] < plan.frame[k]);
+        on_page && plan.is_clear(corner + low, corner + high)
+    };
+    // Farther into the page only where the whole side has no such place.
+    let middle = plan.frame / 2.0;
+    let across = Vec2::new(along.y, along.x);
+    let inward = across * (middle - at).dot(&across).signum();
+    let places = (0..NAME_ROWS).flat_map(|row| (0..NAME_PLACES).map(move |k| (f64::from(row), f64::from(k))));
+    let moved = |(row, k): (f64, f64)| {
+        let at = at + inward * (row * 2.0 * NAME_STEP);
+        [1.0, -1.0].map(|side| at + along * (side * k * NAME_STEP))
+    };
+    places.flat_map(moved).find(is_clear).unwrap_or(at)
 }
 
 /// The frame, and half diamonds where a neighbour is joined, named alike on both pages.
@@ -263,7 +304,9 @@ fn marks(pen: &mut PagePen, plan: &FieldPlan, row: usize, column: usize) {
         if joined {
             pen.line(&[middle - along * MATCH, middle + inward * MATCH, middle + along * MATCH], true);
             let at = middle + inward * (MATCH + LETTERS * 1.5) + Vec2::y() * (LETTERS / 2.0);
-            pen.text(&format!("{name}{side}"), at, LETTERS * 0.8, true, false);
+            let (name, height) = (format!("{name}{side}"), LETTERS * 0.8);
+            let at = clear_place(plan, plan.corner(row, column), at, along, (&name, height));
+            pen.text(&name, at, height, true, false);
         }
     }
 }
@@ -297,6 +340,9 @@ mod tests {
             words: crate::cutting::PieceWords::default(),
             texts: Vec::new(),
             narrowed: Vec::new(),
+            nest: None,
+            size: None,
+            others: Vec::new(),
         }
     }
 

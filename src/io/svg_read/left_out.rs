@@ -36,7 +36,11 @@ impl What {
                 "clones or symbols ('use')",
                 "unlink it (in Inkscape: Edit, Clone, Unlink Clone) to have its lines",
             ],
-            Self::Text => ["text", "texts", "of words only 'cut 2', 'cut 1 on fold' and the like on a piece are read"],
+            Self::Text => [
+                "text",
+                "texts",
+                "of words only titles, numbers, 'cut 2', 'cut 1 on fold' and the like on a piece are read",
+            ],
             Self::Hidden => ["hidden element", "hidden elements", "show it to have its lines"],
             Self::Unsized => ["shape without a size", "shapes without a size", "give it lengths, or make a path of it"],
             Self::Other => {

@@ -7,6 +7,7 @@
 mod arrow;
 mod left_out;
 mod program;
+mod role;
 mod shapes;
 mod style;
 mod viewport;
@@ -19,14 +20,13 @@ use roxmltree::{Document, Node};
 use self::arrow::shaft;
 use self::left_out::{LeftOutElements, What};
 use self::program::unit_of;
+use self::role::{SKIPPED, role};
 use self::shapes::commands;
 use self::style::Styles;
 use self::viewport::{ElementFrame, Viewport, inner, sheet};
 use self::xml::parsed;
 use super::encoding::decoded_xml;
-use crate::digitize::{
-    Drawing, FastenerKind, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes,
-};
+use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Corner, LineKind, NotchKind, Side};
@@ -51,18 +51,6 @@ const LINES: [&str; 4] = ["path", "polygon", "polyline", "line"];
 /// Elements that are not drawn where they stand.
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
-/// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 11] =
-    ["drawn", "grid", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
-
-/// FreeSewing's symbols of buttons and what they go through. One that is called as another begins comes before that.
-const FASTENERS: [(&str, FastenerKind); 4] = [
-    ("#buttonhole", FastenerKind::Buttonhole),
-    ("#button", FastenerKind::Button),
-    ("#snap-stud", FastenerKind::Stud),
-    ("#snap-socket", FastenerKind::Socket),
-];
-
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SvgError {
@@ -243,7 +231,8 @@ impl SvgReader<'_, '_> {
             }
             if CONTAINERS.contains(&name) {
                 let own = group_name(node);
-                within.size = own.as_ref().and_then(|own| size_of(&own.name)).or(scope.size);
+                let told = || node.attribute("data-size").map(|size| shown(size, SHOWN));
+                within.size = told().or_else(|| size_of(&own.as_ref()?.name)).or(scope.size);
                 within.layer = own.as_ref().map(|own| own.name.clone()).or(scope.layer);
                 within.group = own.filter(|own| own.is_piece).map(|own| own.name).or(scope.group);
                 let side = node.attribute("data-drawn").and_then(Side::from_letter);
@@ -258,15 +247,23 @@ impl SvgReader<'_, '_> {
                 let children = elements().filter(|c| !styles.hides(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
                 open.extend(children.map(|c| (c, within.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
-                self.element(node, name, &within, styles.only_fills(node))?;
+                let letters = if name == "text" { styles.letters(node) } else { 0.0 };
+                self.element(node, name, &within, (styles.only_fills(node), letters))?;
             }
         }
         Ok(())
     }
 
-    fn element(&mut self, node: Node, name: &str, scope: &Scope, filled: bool) -> Result<(), SvgError> {
+    /// An element that is drawn: whether it is filled without a pen, and how high its letters are.
+    fn element(
+        &mut self,
+        node: Node,
+        name: &str,
+        scope: &Scope,
+        (filled, letters): (bool, f64),
+    ) -> Result<(), SvgError> {
         let read = name == "text" && self.remarks.len() < MOST_STROKES;
-        let remark = if read { remark(node, scope.frame) } else { None };
+        let remark = if read { remark(node, scope.frame, letters) } else { None };
         let role = role(node, &scope.classes);
         let known = scope.classes.split_whitespace().any(|c| SKIPPED.contains(&c));
         if let Some(what) = What::of(name, role.is_some()).filter(|_| !known) {
@@ -311,10 +308,10 @@ impl SvgReader<'_, '_> {
         self.left_out.add(what, self.line(node));
     }
 
-    /// Counts the texts that say of none of these pieces how it is cut.
+    /// Counts the texts that say nothing that is read of any of these pieces.
     fn leave_out_unread(&mut self, pieces: &[Traced]) {
         let mut used = vec![false; self.remarks.len()];
-        pieces.iter().filter_map(|p| p.said_by).for_each(|i| used[i] = true);
+        pieces.iter().flat_map(|p| &p.said_by).for_each(|&i| used[i] = true);
         for &(_, line) in self.texts.iter().filter(|(i, _)| !used[*i]) {
             self.left_out.add(What::Text, line);
         }
@@ -342,14 +339,16 @@ fn material(node: Node) -> Option<Material> {
 }
 
 /// A text's words and its beginning, which may stand at its first line.
-fn remark(node: Node, frame: ElementFrame) -> Option<Remark> {
+fn remark(node: Node, frame: ElementFrame, letters: f64) -> Option<Remark> {
     let number = |key: &str| {
         let own = node.descendants().find_map(|n| n.attribute(key))?;
         own.split([' ', ',']).next()?.parse::<f64>().ok().filter(|x| x.is_finite())
     };
-    let words: Vec<&str> = node.descendants().filter_map(|n| n.text()).collect();
+    let words: Vec<&str> = node.descendants().filter(Node::is_text).filter_map(|n| n.text()).collect();
     let at = Vec2::new(number("x").unwrap_or(0.0), number("y").unwrap_or(0.0));
-    (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text: shown(&words.join(" "), REMARK) })
+    let height = letters * frame.linear.determinant().abs().sqrt();
+    let text = shown(&words.join(" "), REMARK);
+    (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text, height })
 }
 
 /// The one child of a `switch` that is shown: the first that asks for nothing. Contents in another program's words
@@ -450,63 +449,4 @@ fn told_corner(node: Node, group: Option<&str>) -> Option<(String, Corner)> {
 fn told_notch(node: Node) -> Option<ToldNotch> {
     let kind = NotchKind::from_word(node.attribute("data-notch")?)?;
     Some(ToldNotch { kind, edge: node.attribute("data-edge").unwrap_or_default().to_owned() })
-}
-
-/// The kind of a line by its classes, markers and name. `None` if it is no line of the pattern.
-fn role(node: Node, classes: &str) -> Option<Role> {
-    let has = |word: &str| classes.split_whitespace().any(|c| c == word);
-    let refers = |name: &str| {
-        let marker = ["marker-start", "marker-end", "style", "href"];
-        node.attributes().any(|a| marker.contains(&a.name()) && a.value().contains(name))
-    };
-    // A name tells what a line is only where its class does not: an edge of a collar may be called a notch.
-    let is_said = ["cut", "sa", "edge", "sew", "fabric", "seam"].into_iter().any(has);
-    let called = |word: &str| {
-        if is_said {
-            return false;
-        }
-        let named = node.attributes().filter(|a| a.name() == "id" || a.name() == "label");
-        named.map(|a| a.value().to_lowercase()).any(|v| v.contains(word))
-    };
-    if has("grain") || has("grainline") || refers("grainline") || called("grain") {
-        return Some(Role::Grain);
-    }
-    if refers("cutonfold") || has("cutonfold") || has("fold") && is_line(node) {
-        return Some(Role::Fold);
-    }
-    match node.attribute("data-pleat") {
-        Some("fold") => return Some(Role::PleatFold),
-        Some("place") => return Some(Role::PleatPlace),
-        _ => {}
-    }
-    if has("notch") || refers("notch") || called("notch") {
-        return Some(Role::Notch);
-    }
-    if has("drill") {
-        return Some(Role::Drill);
-    }
-    if node.tag_name().name() == "use"
-        && let Some((_, kind)) = FASTENERS.iter().find(|(symbol, _)| refers(symbol))
-    {
-        return Some(Role::Fastener(*kind));
-    }
-    // Other symbols are logos.
-    if has("fold") || SKIPPED.iter().any(|w| has(w)) || ["text", "use"].contains(&node.tag_name().name()) {
-        return None;
-    }
-    Some(if has("cut") || has("sa") {
-        Role::Cut
-    } else if has("edge") || has("sew") {
-        Role::Edge
-    } else if has("fabric") || has("seam") {
-        Role::Sew
-    } else {
-        Role::Unknown
-    })
-}
-
-/// Whether it is one straight line: the fold itself, not its arrow.
-fn is_line(node: Node) -> bool {
-    let lines = commands(node, node.tag_name().name(), Vec2::zeros()).and_then(|text| Path::parse_many(&text).ok());
-    matches!(lines.as_deref(), Some([line]) if line.is_straight())
 }

@@ -42,6 +42,13 @@ impl Styles {
         paints("fill").is_some() && paints("stroke").is_none()
     }
 
+    /// The height of the letters of a text, user units; 0 where it is not told as a length.
+    pub(super) fn letters(&self, node: Node) -> f64 {
+        let told = self.inherited(node, "font-size").unwrap_or_default();
+        let number = told.trim_end_matches(|c: char| c.is_alphabetic());
+        number.trim().parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0).unwrap_or(0.0)
+    }
+
     pub(super) fn hides(&self, node: Node) -> bool {
         self.property(node, "display") == Some("none") || self.property(node, "visibility") == Some("hidden")
     }

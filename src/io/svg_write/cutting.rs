@@ -1,8 +1,9 @@
 //! Patterns for cutting as SVG.
 //!
-//! A layer per material, and in it a group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids
-//! `piece.edge`), `fold`, `notch`, `grain`, `line`, `drill` and `text`; the test squares in groups of class `scale`.
-//! A piece's group names its material in `data-material` and, where it is a fabric of the library, in `data-fabric`.
+//! A layer per material (and size, where these lie over one another), and in it a group per piece with its name as
+//! id; classes `cut` (solid), `sew` (dashed; ids `piece.edge`), `fold`, `notch`, `grain`, `line`, `drill` and `text`;
+//! the test squares in groups of class `scale`. A layer names its size in `data-size`. A piece's group names its
+//! material in `data-material` and, where it is a fabric of the library, in `data-fabric`.
 //! A notch runs from the cut line to the sewing line or, by way of a point there, beyond; `data-notch` says what
 //! it belongs to, `data-edge` where it is; `data-corner` how the allowance of an edge ends, where the file says so.
 
@@ -12,14 +13,16 @@ use super::{
     centered, document, identifier, inch_square, number, polyline, printable, square, stroke, told_notch, with_kind,
 };
 use crate::cutting::{
-    CLOTH_LETTERS, ClothLength, Lettering, MarkKind, NotchMark, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE,
-    grain_arrow, materials,
+    CLOTH_LETTERS, ClothLength, Lettering, MarkKind, NotchMark, Paper, PaperLayer, PaperSize, SQUARE_GAP, SewKind,
+    Sheet, TEST_SQUARE, grain_arrow, layers,
 };
 use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
 const CUT: f64 = 0.5;
 const FINE: f64 = 0.25;
+/// Dashes of the cut lines of sizes that are drawn over one another, mm.
+const SIZES: [&str; 6] = ["", "3 1.5", "3 1.5 0.4 1.5", "1.5 1", "3 1 0.4 1 0.4 1", "0.4 1"];
 /// Radius of a drill mark, mm.
 const DRILL: f64 = 1.5;
 /// Height of the test square's letters, mm.
@@ -32,7 +35,7 @@ pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
     for cloth in &sheet.cloth {
         document = document.add(stretch(cloth));
     }
-    for layer in layers(&sheet.papers) {
+    for layer in drawn_layers(&sheet.papers) {
         document = document.add(layer);
     }
     if let Some(corner) = sheet.square {
@@ -43,18 +46,21 @@ pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
     document.to_string()
 }
 
-/// A layer, as Inkscape has them, with the papers of each material.
-fn layers(papers: &[Paper]) -> Vec<Group> {
-    let drawn = |(k, material): (usize, &&str)| {
-        let own = papers.iter().filter(|paper| paper.fabric == **material);
-        own.fold(layer(k + 1, material), |group, paper| group.add(draw(paper)))
+/// Layers, as Inkscape has them, with the papers of each material and size.
+fn drawn_layers(papers: &[Paper]) -> Vec<Group> {
+    let drawn = |(k, own): (usize, &PaperLayer)| {
+        let papers = papers.iter().filter(|paper| PaperLayer::of(paper) == *own);
+        papers.fold(layer(k + 1, own), |group, paper| group.add(draw(paper)))
     };
-    materials(papers).iter().enumerate().map(drawn).collect()
+    layers(papers).iter().enumerate().map(drawn).collect()
 }
 
-fn layer(number: usize, material: &str) -> Group {
-    let group = Group::new().set("id", format!("layer{number}")).set("inkscape:groupmode", "layer");
-    group.set("inkscape:label", format!("material {}", printable(material)))
+fn layer(number: usize, layer: &PaperLayer) -> Group {
+    let mut group = Group::new().set("id", format!("layer{number}")).set("inkscape:groupmode", "layer");
+    if let Some(size) = &layer.size {
+        group = group.set("data-size", printable(size));
+    }
+    group.set("inkscape:label", format!("material {}", printable(&layer.words())))
 }
 
 /// A stretch of cloth: its edges, its fold, and what it is.
@@ -80,7 +86,13 @@ fn stretch(cloth: &ClothLength) -> Group {
 }
 
 fn draw(paper: &Paper) -> Group {
-    let name = identifier(&paper.name);
+    // No two elements have one id.
+    let of = match (&paper.size, paper.nest) {
+        (Some(size), _) => format!("_{}", size.name),
+        (None, Some(_)) => "_label".to_owned(),
+        (None, None) => String::new(),
+    };
+    let name = identifier(&format!("{}{of}", paper.name));
     let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
     group = group.set("data-material", printable(&paper.fabric));
     if let Some(cloth) = &paper.cloth {
@@ -91,7 +103,7 @@ fn draw(paper: &Paper) -> Group {
     }
     for (i, contour) in paper.cut.iter().enumerate() {
         let open = i == 0 && paper.fold.is_some();
-        group = group.add(contour_path(contour, open));
+        group = group.add(dashed(contour_path(contour, open), paper.size.as_ref()));
     }
     if let Some(fold) = paper.fold {
         let line = polyline(&fold.map(|p| p * MM), "fold", CUT);
@@ -138,7 +150,10 @@ fn draw(paper: &Paper) -> Group {
             .set("stroke-width", FINE);
         group = group.add(circle);
     }
-    group = group.add(polyline(&grain_arrow(paper.grain).map(|p| p * MM), "grain", FINE));
+    // The label of a nest has none.
+    if paper.nest.is_none() || paper.size.is_some() {
+        group = group.add(polyline(&grain_arrow(paper.grain).map(|p| p * MM), "grain", FINE));
+    }
     paper.texts.iter().fold(group, |group, t| group.add(letters(t)))
 }
 
@@ -147,6 +162,12 @@ fn contour_path(contour: &[Vec2], open: bool) -> Path {
     let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
     let end = if open { "" } else { " Z" };
     stroke(format!("M{}{end}", steps.join(" L")), "cut", CUT)
+}
+
+/// A cut line in the dashes of its size.
+fn dashed(path: Path, size: Option<&PaperSize>) -> Path {
+    let dashes = size.map_or("", |size| SIZES[size.number % SIZES.len()]);
+    if dashes.is_empty() { path } else { path.set("stroke-dasharray", dashes) }
 }
 
 /// A notch's mark, with a point on the sewing line.
