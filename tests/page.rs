@@ -14,15 +14,15 @@ use tempfile::TempDir;
 
 /// The skirt, made in a folder of its own.
 fn made() -> TempDir {
-    made_of(include_str!("data/skirt.yaml"), "40")
+    made_of("skirt.yaml", include_str!("data/skirt.yaml"), "40")
 }
 
 /// A garment, made with this spacing (mm) in the folder `out` of a folder of its own.
-fn made_of(garment: &str, spacing: &str) -> TempDir {
+fn made_of(file: &str, garment: &str, spacing: &str) -> TempDir {
     let room = tempfile::tempdir().expect("a temporary folder");
-    fs::write(room.path().join("garment.yaml"), garment).expect("written");
+    fs::write(room.path().join(file), garment).expect("written");
     let program = env!("CARGO_BIN_EXE_toile");
-    let args = ["make", "garment.yaml", "-o", "out", "--spacing", spacing, "-q"];
+    let args = ["make", file, "-o", "out", "--spacing", spacing, "-q"];
     let status = Command::new(program).args(args).current_dir(room.path()).status().expect("started");
     assert!(status.success(), "{status}");
     room
@@ -151,7 +151,7 @@ const MOST_MS: f64 = 8000.0;
 #[test]
 fn the_page_of_a_t_shirt_is_small_and_soon_there() {
     let Some(mut browser) = Browser::start() else { return eprintln!("skipped: no Chromium is installed") };
-    let room = made_of(include_str!("../patterns/tshirt.yaml"), "12");
+    let room = made_of("tshirt.yaml", include_str!("../patterns/tshirt.yaml"), "12");
     let file = room.path().join("out/report.html");
     let bytes = fs::metadata(&file).expect("a page").len();
     browser.open(&format!("file://{}", file.display()));

@@ -213,7 +213,9 @@ fn check(garment: &str, mannequin: &str, measures: &[(&str, f64)]) {
     let mut skin = body.mesh.clone();
     skin.vertices.iter_mut().for_each(|p| *p *= 1e3);
     let rows = report["fit"]["girths"].as_array().expect("girths");
-    assert!(rows.len() >= 3, "{garment}: {} rows", rows.len());
+    // A skirt that is too narrow is worn lower.
+    let least = if measures.is_empty() { 3 } else { 2 };
+    assert!(rows.len() >= least, "{garment}: {} rows", rows.len());
     for row in rows {
         let number = |key: &str| row[key].as_f64().expect("a number");
         let name = row["name"].as_str().expect("a name");
@@ -251,7 +253,7 @@ fn the_tape_measures_what_is_known() {
     assert!((round - 300.0 * TAU / 2.0).abs() < 0.1, "{round}");
     let star = ring(1.0, &|share| 150.0 + 20.0 * (9.0 * TAU * share).cos());
     let length: f64 = star.iter().map(|[p, q]| far(*p, *q)).sum();
-    assert!((once_round(&star).expect("closed") - length).abs() < 1e-9 && length > 1.3 * round);
+    assert!((once_round(&star).expect("closed") - length).abs() < 1e-9 && length > 1.25 * round);
     let lapped = once_round(&ring(1.1, &|share| 150.0 + 0.5 * share)).expect("closed");
     assert!((lapped - round).abs() < 3.0, "{lapped}");
     assert_eq!(once_round(&ring(0.9, &|_| 150.0)), None);
