@@ -275,8 +275,7 @@ fn a_skirt_on_three_bodies() {
 }
 
 #[test]
-fn dresses_and_trousers() {
+fn two_dresses() {
     check("sheath_dress", "woman_92", &[]);
     check("child_dress", "child_110", &[]);
-    check("trousers", "woman_92", &[]);
 }
