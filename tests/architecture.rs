@@ -78,7 +78,7 @@ const FLOORS: [(&str, &[&str]); 26] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 28] = [
+const CRATES: [(&str, &[&str]); 30] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
@@ -96,6 +96,8 @@ const CRATES: [(&str, &[&str]); 28] = [
     // Written in `picture`; what users hand in is read where it is measured.
     ("gif", &["picture/turntable.rs", "picture/mod.rs"]),
     ("png", &["picture/", "fabric/measure/photo.rs"]),
+    ("epaint_default_fonts", &["picture/font.rs"]),
+    ("ttf_parser", &["picture/font.rs"]),
     ("zune_jpeg", &["fabric/measure/photo.rs"]),
     ("zune_core", &["fabric/measure/photo.rs"]),
     ("saphyr_parser", &["io/garment/"]),

@@ -1,11 +1,13 @@
 //! The finished picture's pixels, and flat drawing on them.
 
 use super::color::Rgb;
-use super::font::glyph;
+use super::font::{Contour, Typeface};
+use super::ink::Ink;
 use super::raster::byte;
 
-/// Half the width of a letter's strokes, in cells of the font.
-const LETTER_RADIUS: f32 = 0.42;
+/// Letters are made bolder by this on both sides of a stroke, in cells of the font: small ones of a light typeface are
+/// too pale on the picture.
+const BOLDER: f32 = 0.1;
 
 /// Pixels, three bytes each, row by row.
 pub(super) struct Canvas {
@@ -58,21 +60,30 @@ impl Canvas {
     /// Writes a line of text from `start`, on the base line. `cell` is the size of a cell of the font, seven of which
     /// make a capital. Returns where the text ends.
     pub(super) fn text(&mut self, text: &str, [left, base]: [f32; 2], cell: f32, color: Rgb) -> f32 {
+        let Some(face) = Typeface::new() else { return left };
         let mut x = left;
         for letter in text.chars() {
-            let glyph = glyph(letter);
-            for [a, b] in glyph.strokes {
-                let at = |[column, row]: [f32; 2]| [x + (column + 0.5) * cell, base + (row - 6.0) * cell];
-                self.line(at(a), at(b), LETTER_RADIUS * cell, color);
+            let placed = |contour: Contour| contour.iter().map(|p| [x + cell * p[0], base + cell * p[1]]).collect();
+            let contours: Vec<Contour> = face.contours(letter).into_iter().map(placed).collect();
+            if let Some(ink) = Ink::of(&contours, BOLDER * cell, [self.width, self.height]) {
+                self.print(&ink, color);
             }
-            x += glyph.advance * cell;
+            x += cell * face.advance(letter);
         }
         x
     }
 
     /// Width of a line of text, pixels.
     pub(super) fn text_width(text: &str, cell: f32) -> f32 {
-        text.chars().map(|letter| glyph(letter).advance * cell).sum()
+        Typeface::new().map_or(0.0, |face| text.chars().map(|letter| cell * face.advance(letter)).sum())
+    }
+
+    fn print(&mut self, ink: &Ink, color: Rgb) {
+        for (row, shares) in ink.shares.chunks_exact(ink.width).enumerate() {
+            for (column, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+                self.mix(ink.from[0] + column, ink.from[1] + row, color, share.min(1.0));
+            }
+        }
     }
 
     fn mix(&mut self, x: usize, y: usize, color: Rgb, share: f32) {

@@ -1,167 +1,136 @@
-//! Letters: dots on a grid of five by seven (and two below the base line), joined by round strokes.
+//! Letters: the outlines of a typeface.
 
-/// Cells between letters.
-const GAP: f32 = 1.5;
-/// Width of a blank, cells.
-const BLANK: f32 = 2.0;
+use epaint_default_fonts::UBUNTU_LIGHT;
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// A letter as it is drawn.
-pub(super) struct Glyph {
-    /// Each from one dot to another (column, row; the base line is row 6). A dot that touches no other is a stroke
-    /// from itself to itself.
-    pub(super) strokes: Vec<[[f32; 2]; 2]>,
-    /// Cells to the next letter.
-    pub(super) advance: f32,
+/// Cells that a capital is high. Sizes of letters are given in pixels per cell.
+pub(super) const CAPITAL: f32 = 7.0;
+
+/// Chords that stand for a curve. A letter has curves of a few pixels.
+const CHORDS: u8 = 8;
+
+/// A closed line, in cells: rightwards from where the letter begins, and downwards from the base line.
+pub(super) type Contour = Vec<[f32; 2]>;
+
+/// The typeface of all pictures.
+pub(super) struct Typeface {
+    face: Face<'static>,
+    /// Cells per unit of the face.
+    scale: f32,
 }
 
-/// The glyph of a letter, flush left. Letters the font does not have are a box.
-pub(super) fn glyph(letter: char) -> Glyph {
-    let mut strokes = strokes(letter);
-    let columns = || strokes.iter().flatten().map(|dot| dot[0]);
-    let first = columns().fold(f32::INFINITY, f32::min);
-    let last = columns().fold(f32::NEG_INFINITY, f32::max);
-    let width = if strokes.is_empty() { BLANK } else { last - first + 1.0 };
-    strokes.iter_mut().flatten().for_each(|dot| dot[0] -= first);
-    Glyph { strokes, advance: width + GAP }
+impl Typeface {
+    /// Ubuntu Light, which is part of the program. `None` if it cannot be read, which a test rules out.
+    pub(super) fn new() -> Option<Self> {
+        let face = Face::parse(UBUNTU_LIGHT, 0).ok()?;
+        let height = face.glyph_bounding_box(face.glyph_index('H')?)?.y_max;
+        Some(Self { scale: CAPITAL / f32::from(height), face })
+    }
+
+    /// The contours of a letter. Letters that the typeface does not have are a box.
+    pub(super) fn contours(&self, letter: char) -> Vec<Contour> {
+        let mut outline = Outline { scale: self.scale, done: Vec::new() };
+        // A blank has no outline.
+        let _ = self.face.outline_glyph(self.glyph(letter), &mut outline);
+        outline.done
+    }
+
+    /// Cells from a letter to the next one.
+    pub(super) fn advance(&self, letter: char) -> f32 {
+        self.scale * f32::from(self.face.glyph_hor_advance(self.glyph(letter)).unwrap_or(0))
+    }
+
+    /// The glyph of a letter, or the one that stands for letters that are missing.
+    fn glyph(&self, letter: char) -> GlyphId {
+        self.face.glyph_index(letter).unwrap_or(GlyphId(0))
+    }
 }
 
-/// Dots joined to their neighbours.
-fn strokes(letter: char) -> Vec<[[f32; 2]; 2]> {
-    let rows: Vec<&[u8]> = dots(letter).split('/').map(str::as_bytes).collect();
-    let dot = |column: isize, row: isize| {
-        let row = usize::try_from(row).ok().and_then(|r| rows.get(r));
-        row.zip(usize::try_from(column).ok()).and_then(|(r, c)| r.get(c)) == Some(&b'#')
-    };
-    let mut out = Vec::new();
-    for row in 0..rows.len() as isize {
-        for column in (0..rows[row as usize].len() as isize).filter(|&c| dot(c, row)) {
-            let from = [column as f32, row as f32];
-            out.push([from, from]);
-            for (dx, dy) in [(1, 0), (0, 1), (1, 1), (-1, 1)] {
-                // A diagonal only where no corner joins the two already.
-                let round_corner = dx != 0 && dy != 0 && (dot(column + dx, row) || dot(column, row + dy));
-                if dot(column + dx, row + dy) && !round_corner {
-                    out.push([from, [(column + dx) as f32, (row + dy) as f32]]);
-                }
-            }
+/// Collects contours as chords.
+struct Outline {
+    scale: f32,
+    done: Vec<Contour>,
+}
+
+impl Outline {
+    fn at(&self, x: f32, y: f32) -> [f32; 2] {
+        [self.scale * x, -self.scale * y]
+    }
+
+    fn add(&mut self, point: [f32; 2]) {
+        if let Some(contour) = self.done.last_mut() {
+            contour.push(point);
         }
     }
-    out
+
+    /// Adds a Bézier curve from where the contour has come to, by de Casteljau's construction.
+    fn curve(&mut self, rest: &[[f32; 2]]) {
+        let Some(&from) = self.done.last().and_then(|contour| contour.last()) else { return };
+        for k in 1..=CHORDS {
+            let share = f32::from(k) / f32::from(CHORDS);
+            let mut points = [&[from], rest].concat();
+            while points.len() > 1 {
+                points = points.windows(2).map(|w| [0, 1].map(|c| w[0][c] + share * (w[1][c] - w[0][c]))).collect();
+            }
+            self.add(points[0]);
+        }
+    }
 }
 
-/// The rows of a letter from the top, `#` for a dot.
-fn dots(letter: char) -> &'static str {
-    let all = [CAPITALS, SMALL, DIGITS, SIGNS];
-    all.iter().copied().flatten().find(|(own, _)| *own == letter).map_or(BOX, |(_, rows)| rows)
+impl OutlineBuilder for Outline {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.done.push(vec![self.at(x, y)]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.add(self.at(x, y));
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.curve(&[self.at(x1, y1), self.at(x, y)]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.curve(&[self.at(x1, y1), self.at(x2, y2), self.at(x, y)]);
+    }
+
+    fn close(&mut self) {}
 }
 
-/// Glyph of letters that the font does not have.
-const BOX: &str = "#####/#...#/#...#/#...#/#...#/#...#/#####";
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A letter and its rows, with `/` between them.
-type Letter = (char, &'static str);
+    /// Letters of titles, names and legends.
+    const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyzäöüéèçßœñøłžšÅ\
+                           0123456789.,:;-–_+=*/%()·!?&#'×°";
 
-/// Capital letters.
-#[rustfmt::skip]
-const CAPITALS: &[Letter] = &[
-    ('A', "..#../.#.#./#...#/#...#/#####/#...#/#...#"),
-    ('B', "####./#...#/#...#/####./#...#/#...#/####."),
-    ('C', ".###./#...#/#..../#..../#..../#...#/.###."),
-    ('D', "####./#...#/#...#/#...#/#...#/#...#/####."),
-    ('E', "#####/#..../#..../####./#..../#..../#####"),
-    ('F', "#####/#..../#..../####./#..../#..../#...."),
-    ('G', ".###./#...#/#..../#..##/#...#/#...#/.###."),
-    ('H', "#...#/#...#/#...#/#####/#...#/#...#/#...#"),
-    ('I', ".###./..#../..#../..#../..#../..#../.###."),
-    ('J', "..###/...#./...#./...#./...#./#..#./.##.."),
-    ('K', "#...#/#..#./#.#../##.../#.#../#..#./#...#"),
-    ('L', "#..../#..../#..../#..../#..../#..../#####"),
-    ('M', "#...#/##.##/#.#.#/#...#/#...#/#...#/#...#"),
-    ('N', "#...#/#...#/##..#/#.#.#/#..##/#...#/#...#"),
-    ('O', ".###./#...#/#...#/#...#/#...#/#...#/.###."),
-    ('P', "####./#...#/#...#/####./#..../#..../#...."),
-    ('Q', ".###./#...#/#...#/#...#/#.#.#/#..#./.##.#"),
-    ('R', "####./#...#/#...#/####./#.#../#..#./#...#"),
-    ('S', ".###./#...#/#..../.###./....#/#...#/.###."),
-    ('T', "#####/..#../..#../..#../..#../..#../..#.."),
-    ('U', "#...#/#...#/#...#/#...#/#...#/#...#/.###."),
-    ('V', "#...#/#...#/#...#/#...#/#...#/.#.#./..#.."),
-    ('W', "#...#/#...#/#...#/#...#/#.#.#/##.##/#...#"),
-    ('X', "#...#/#...#/.#.#./..#../.#.#./#...#/#...#"),
-    ('Y', "#...#/#...#/.#.#./..#../..#../..#../..#.."),
-    ('Z', "#####/....#/...#./..#../.#.../#..../#####"),
-];
+    /// Area within contours, cells squared: holes run the other way round.
+    fn area(contours: &[Contour]) -> f32 {
+        let twice = |c: &Contour| -> f32 {
+            (0..c.len()).map(|k| [c[k], c[(k + 1) % c.len()]]).map(|[p, q]| p[0] * q[1] - q[0] * p[1]).sum()
+        };
+        0.5 * contours.iter().map(twice).sum::<f32>().abs()
+    }
 
-/// Small letters.
-#[rustfmt::skip]
-const SMALL: &[Letter] = &[
-    ('a', "...../...../.###./....#/.####/#...#/.####"),
-    ('b', "#..../#..../####./#...#/#...#/#...#/####."),
-    ('c', "...../...../.###./#..../#..../#...#/.###."),
-    ('d', "....#/....#/.####/#...#/#...#/#...#/.####"),
-    ('e', "...../...../.###./#...#/#####/#..../.###."),
-    ('f', "..##./.#.../####./.#.../.#.../.#.../.#..."),
-    ('g', "...../...../.####/#...#/#...#/#...#/.####/....#/.###."),
-    ('h', "#..../#..../####./#...#/#...#/#...#/#...#"),
-    ('i', "..#../...../.##../..#../..#../..#../.###."),
-    ('j', "...#./...../...#./...#./...#./...#./...#./#..#./.##.."),
-    ('k', "#..../#..../#..#./#.#../##.../#.#../#..#."),
-    ('l', ".##../..#../..#../..#../..#../..#../.###."),
-    ('m', "...../...../##.#./#.#.#/#.#.#/#.#.#/#.#.#"),
-    ('n', "...../...../####./#...#/#...#/#...#/#...#"),
-    ('o', "...../...../.###./#...#/#...#/#...#/.###."),
-    ('p', "...../...../####./#...#/#...#/#...#/####./#..../#...."),
-    ('q', "...../...../.####/#...#/#...#/#...#/.####/....#/....#"),
-    ('r', "...../...../#.##./##..#/#..../#..../#...."),
-    ('s', "...../...../.####/#..../.###./....#/####."),
-    ('t', ".#.../.#.../####./.#.../.#.../.#..#/..##."),
-    ('u', "...../...../#...#/#...#/#...#/#...#/.####"),
-    ('v', "...../...../#...#/#...#/#...#/.#.#./..#.."),
-    ('w', "...../...../#...#/#.#.#/#.#.#/#.#.#/.#.#."),
-    ('x', "...../...../#...#/.#.#./..#../.#.#./#...#"),
-    ('y', "...../...../#...#/#...#/#...#/#...#/.####/....#/.###."),
-    ('z', "...../...../#####/...#./..#../.#.../#####"),
-];
+    #[test]
+    fn the_typeface_has_the_letters_of_titles_and_legends() {
+        let face = Typeface::new().expect("it is part of the program");
+        let missing = face.contours('\u{10ffff}');
+        for letter in LETTERS.chars() {
+            let own = face.contours(letter);
+            assert!(own != missing && area(&own) > 0.1 && face.advance(letter) > 1.0, "{letter}");
+        }
+        assert!(face.contours(' ').is_empty() && face.advance(' ') > 1.0);
+    }
 
-/// Digits.
-#[rustfmt::skip]
-const DIGITS: &[Letter] = &[
-    ('0', ".###./#...#/#...#/#...#/#...#/#...#/.###."),
-    ('1', "..#../.##../..#../..#../..#../..#../.###."),
-    ('2', ".###./#...#/....#/...#./..#../.#.../#####"),
-    ('3', ".###./#...#/....#/..##./....#/#...#/.###."),
-    ('4', "...#./..##./.#.#./#..#./#####/...#./...#."),
-    ('5', "#####/#..../####./....#/....#/#...#/.###."),
-    ('6', ".###./#..../#..../####./#...#/#...#/.###."),
-    ('7', "#####/....#/...#./...#./..#../..#../..#.."),
-    ('8', ".###./#...#/#...#/.###./#...#/#...#/.###."),
-    ('9', ".###./#...#/#...#/.####/....#/....#/.###."),
-];
-
-/// Signs, and the blank.
-#[rustfmt::skip]
-const SIGNS: &[Letter] = &[
-    ('.', "...../...../...../...../...../...../..#.."),
-    (',', "...../...../...../...../...../..#../..#../.#..."),
-    (':', "...../...../..#../...../...../...../..#.."),
-    (';', "...../...../..#../...../...../..#../..#../.#..."),
-    ('-', "...../...../...../.###./...../...../....."),
-    ('–', "...../...../...../#####/...../...../....."),
-    ('_', "...../...../...../...../...../...../#####"),
-    ('+', "...../..#../..#../#####/..#../..#../....."),
-    ('=', "...../...../#####/...../#####/...../....."),
-    ('*', "...../#.#.#/.###./#####/.###./#.#.#/....."),
-    ('/', "....#/....#/...#./..#../.#.../#..../#...."),
-    ('%', "##..#/##..#/...#./..#../.#.../#..##/#..##"),
-    ('(', "...#./..#../.#.../.#.../.#.../..#../...#."),
-    (')', ".#.../..#../...#./...#./...#./..#../.#..."),
-    ('·', "...../...../...../..#../...../...../....."),
-    ('!', "..#../..#../..#../..#../..#../...../..#.."),
-    ('?', ".###./#...#/....#/...#./..#../...../..#.."),
-    ('&', ".##../#..#./#.#../.#.../#.#.#/#..#./.##.#"),
-    ('#', ".#.#./.#.#./#####/.#.#./#####/.#.#./.#.#."),
-    ('\'', "..#../..#../...../...../...../...../....."),
-    ('×', "...../...../#...#/.#.#./..#../.#.#./#...#"),
-    ('°', ".##../#..#./.##../...../...../...../....."),
-    (' ', ""),
-];
+    #[test]
+    fn a_capital_is_seven_cells_high_and_stands_on_the_base_line() {
+        let face = Typeface::new().expect("it is part of the program");
+        let heights = || face.contours('H').into_iter().flatten().map(|p| p[1]);
+        let (top, foot) = (heights().fold(0.0, f32::min), heights().fold(-9.0, f32::max));
+        assert!((top + CAPITAL).abs() < 1e-4 && foot.abs() < 1e-4, "{top}, {foot}");
+        // An O has its counter.
+        assert_eq!(face.contours('O').len(), 2);
+    }
+}

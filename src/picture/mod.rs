@@ -11,6 +11,7 @@ mod color;
 mod dressed;
 mod flat;
 mod font;
+mod ink;
 mod layout;
 mod light;
 mod occlusion;

@@ -3,6 +3,7 @@
 
 use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER, RIM, Rgb, opening};
+use super::font::CAPITAL;
 use super::places::{BoxPlace, places};
 use super::{HEIGHT, PictureError, WIDTH, encode};
 use crate::geometry::{MM, Path, Vec2, box_or_origin};
@@ -27,8 +28,6 @@ const LEGEND_CELL: f32 = 2.4;
 const TITLE_CELL: f32 = 5.0;
 /// A piece's name is written no smaller than this share of its size, be the piece however narrow.
 const LEAST_SHARE: f32 = 0.5;
-/// Cells that a capital is high.
-const CAPITAL: f32 = 7.0;
 /// Height of a line of the legend, and the side of its square, pixels.
 const LINE: usize = 38;
 const SQUARE: usize = 22;

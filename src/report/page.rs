@@ -1,11 +1,12 @@
 //! `report.html`: the garment on its body, its pattern, maps and tables as one page that needs no network.
 
 /// The page's own files, in the order in which they are joined. No bundler: each defines what the next ones use.
-const MODULES: [&str; 7] = [
+const MODULES: [&str; 8] = [
     include_str!("page/data.js"),
     include_str!("page/maps.js"),
     include_str!("page/camera.js"),
     include_str!("page/space.js"),
+    include_str!("page/fill.js"),
     include_str!("page/flat.js"),
     include_str!("page/tables.js"),
     include_str!("page/views.js"),

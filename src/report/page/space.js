@@ -41,14 +41,16 @@ function program(gl) {
     const made = gl.createShader(kind);
     gl.shaderSource(made, text);
     gl.compileShader(made);
-    if (!gl.getShaderParameter(made, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(made));
     return made;
   };
   const made = gl.createProgram();
-  gl.attachShader(made, shader(gl.VERTEX_SHADER, VERTEX));
-  gl.attachShader(made, shader(gl.FRAGMENT_SHADER, FRAGMENT));
+  const shaders = [shader(gl.VERTEX_SHADER, VERTEX), shader(gl.FRAGMENT_SHADER, FRAGMENT)];
+  shaders.forEach((each) => gl.attachShader(made, each));
   gl.linkProgram(made);
-  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
+  // One question waits for all three.
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) {
+    throw new Error([gl.getProgramInfoLog(made), ...shaders.map((each) => gl.getShaderInfoLog(each))].join("\n"));
+  }
   return made;
 }
 
@@ -109,9 +111,52 @@ const filled = (count, rgb) => {
   return out;
 };
 
+/**
+ * Smooth edges: the picture is drawn with several samples a pixel into buffers beside the canvas, and copied. Not so at
+ * first: where a program stands in for the graphics card, the buffers take it a third of a second.
+ */
+function smoothing(gl) {
+  const SAMPLES = 4;
+  const held = { on: false, buffer: null, parts: [], size: [0, 0] };
+  function make() {
+    const size = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    if (held.buffer && size.every((x, k) => x === held.size[k])) return;
+    if (!held.buffer) [held.buffer, held.parts] = [gl.createFramebuffer(), [0, 1].map(() => gl.createRenderbuffer())];
+    held.size = size;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, held.buffer);
+    const places = [[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]];
+    places.forEach(([format, place], k) => {
+      gl.bindRenderbuffer(gl.RENDERBUFFER, held.parts[k]);
+      gl.renderbufferStorageMultisample(gl.RENDERBUFFER, SAMPLES, format, ...size);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, held.parts[k]);
+    });
+  }
+  return {
+    /** Turns it on. */
+    start() {
+      held.on = true;
+    },
+    /** Before a picture. */
+    begin() {
+      if (held.on) make();
+      gl.bindFramebuffer(gl.FRAMEBUFFER, held.on ? held.buffer : null);
+    },
+    /** After it. */
+    end() {
+      if (!held.on) return;
+      const [width, height] = held.size;
+      gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+      gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    },
+  };
+}
+
 /** The view in space. `cloth` and `body` as of `joined`, `lines` as of `linesOf`. */
 function spaceView(canvas, cloth, body, lines) {
-  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  // Its size is right before it has a picture, which would be made twice.
+  fitted();
+  const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
   if (!gl) return null;
   const painted = program(gl);
   const uniform = (name) => gl.getUniformLocation(painted, name);
@@ -143,11 +188,22 @@ function spaceView(canvas, cloth, body, lines) {
   fill();
   const aspect = () => canvas.clientWidth / Math.max(canvas.clientHeight, 1);
 
-  function draw() {
+  /** Gives the canvas the pixels that it has on the screen. */
+  function fitted() {
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth * ratio, canvas.clientHeight * ratio].map(Math.round);
-    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    gl.viewport(0, 0, width, height);
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+  }
+
+  const smooth = smoothing(gl);
+
+  function draw() {
+    cancelAnimationFrame(waiting);
+    waiting = 0;
+    fitted();
+    smooth.begin();
+    gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
@@ -178,16 +234,13 @@ function spaceView(canvas, cloth, body, lines) {
       paint(mark.shape, gl.POINTS, 0, 1);
     }
     gl.bindVertexArray(null);
+    smooth.end();
   }
 
-  let waiting = false;
+  /** The number of the frame in which it is drawn next, or 0. */
+  let waiting = 0;
   const redraw = () => {
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      draw();
-    });
+    if (!waiting) waiting = requestAnimationFrame(draw);
   };
 
   /** What lies under a place of the picture, in CSS pixels: the triangle and the weights of its corners. */
@@ -202,6 +255,11 @@ function spaceView(canvas, cloth, body, lines) {
 
   return {
     camera, state, draw, redraw, pick,
+    /** Draws it with smooth edges from the next frame on. */
+    smooth() {
+      smooth.start();
+      redraw();
+    },
     /** Shows another garment. The camera stays where it is, as far as the new one is about as large. */
     load(...shown) {
       [cloth, body, lines] = shown;

@@ -1,5 +1,8 @@
 // Two views of one garment, linked. What they show can be replaced.
 
+/** Milliseconds after which edges become smooth, so that the page has loaded before. */
+const SMOOTH_AFTER = 50;
+
 const find = (id) => document.getElementById(id);
 let [report, cloth, body, runs, lines, maps, map] = [null, null, null, [], null, [], null];
 let [space, flat] = [null, null];
@@ -169,7 +172,11 @@ function load(shown) {
   }
   find("map").replaceChildren(...maps.map((each) => element("option", { value: each.id }, each.name)));
   take(wanted);
-  if (space) space.draw();
+  if (space) {
+    space.draw();
+    // A frame later the page is there, and edges become smooth.
+    requestAnimationFrame(() => setTimeout(space.smooth, SMOOTH_AFTER));
+  }
 }
 
 // For tests of the page: what it shows, and where.
