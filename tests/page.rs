@@ -144,9 +144,10 @@ fn the_garment_turns(browser: &mut Browser) {
 /// Most bytes of the page of a T-shirt.
 const MOST_BYTES: u64 = 2_000_000;
 
-/// Milliseconds after which the page of a T-shirt is there on any machine, be it shared. Alone, it takes less than one
-/// second, which is printed. A view that the browser's stand-in for a graphics card draws path by path took 45 s.
-const MOST_MS: f64 = 8000.0;
+/// Milliseconds after which the page of a T-shirt is there on any machine, be it shared by several. How long it took is
+/// printed: 2 s where three programs share two cores. A view that the browser's stand-in for a graphics card draws path
+/// by path took 45 s.
+const MOST_MS: f64 = 20_000.0;
 
 #[test]
 fn the_page_of_a_t_shirt_is_small_and_soon_there() {

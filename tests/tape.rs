@@ -214,8 +214,7 @@ fn check(garment: &str, mannequin: &str, measures: &[(&str, f64)]) {
     skin.vertices.iter_mut().for_each(|p| *p *= 1e3);
     let rows = report["fit"]["girths"].as_array().expect("girths");
     // A skirt that is too narrow is worn lower.
-    let least = if measures.is_empty() { 3 } else { 2 };
-    assert!(rows.len() >= least, "{garment}: {} rows", rows.len());
+    assert!(rows.len() >= if measures.is_empty() { 3 } else { 2 }, "{garment}: {} rows", rows.len());
     for row in rows {
         let number = |key: &str| row[key].as_f64().expect("a number");
         let name = row["name"].as_str().expect("a name");
@@ -268,10 +267,9 @@ fn a_t_shirt_on_three_bodies() {
 }
 
 #[test]
-fn a_skirt_on_three_bodies() {
+fn a_skirt_on_two_bodies() {
     check("gore_skirt", "woman_92", &[]);
     check("gore_skirt", "woman_92", &[("waist", 815.0), ("hip", 1050.0)]);
-    check("gore_skirt", "woman_92", &[("waist", 660.0), ("hip", 895.0)]);
 }
 
 #[test]
