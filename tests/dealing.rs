@@ -97,7 +97,7 @@ fn a_sleeve_of_which_there_is_one_has_an_arm_in_it() {
     }
 }
 
-/// A swimsuit in two pieces on the fold, without a word of `place`. Its back is cut lower than its front.
+/// A swimsuit in two pieces on the fold, without a word of front or back. Its back is cut lower than its front.
 const SWIMSUIT: &str = "garment: 1
 body: woman_92
 fabrics: {shell: nylon_spandex_knit}
@@ -109,6 +109,7 @@ pieces:
     outline: {start: 0 170, neck: 'C 60 170, 80 100, 85 0', strap: L 115 0, armhole: 'C 110 120, 130 220, 200 240',
               side: 'C 175 380, 175 420, 205 560', leg: 'C 130 590, 60 660, 38 760', crotch: L 0 760, center: L 0 170}
   b:
+    place: torso
     cut: fold center
     drawn: R
     grain: [[40, 300], [40, 500]]
