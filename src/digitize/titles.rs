@@ -6,7 +6,7 @@ use crate::geometry::Vec2;
 
 /// Most letters of a title: longer texts are instructions.
 const LONGEST: usize = 40;
-/// Words of texts that are no titles, as they begin.
+/// First words of texts that are no titles, also with `line` after them: a grainline.
 const OTHER: [&str; 16] = [
     "cut", "grain", "fold", "place", "size", "date", "for", "by", "material", "fabric", "scale", "test", "page",
     "notch", "center", "centre",
@@ -52,7 +52,7 @@ fn title(text: &str) -> Option<String> {
     let is_title = letters > 1
         && !first.starts_with(|c: char| c.is_ascii_digit())
         && words.chars().count() <= LONGEST
-        && !OTHER.contains(&first.as_str())
+        && !OTHER.contains(&first.strip_suffix("line").unwrap_or(&first))
         && number(words).is_none()
         && said(words).is_none();
     is_title.then(|| words.to_owned())
