@@ -67,11 +67,12 @@ const PEOPLE: u32 = 24;
 
 #[test]
 fn every_girth_that_is_given_is_met_on_the_surface() {
-    let people = std::env::var("TOILE_PEOPLE").map_or(PEOPLE, |number| number.parse().expect("a number"));
+    let count_of_people =
+        std::env::var("TOILE_PEOPLE").map_or(PEOPLE, |number| number.parse().expect("a number of people"));
     for name in ["woman_92", "man_100"] {
         let spec = MannequinSpec::load(name).expect("shipped");
         let mut runner = TestRunner::new_with_rng(
-            Config { failure_persistence: None, ..Config::with_cases(people) },
+            Config { failure_persistence: None, ..Config::with_cases(count_of_people) },
             TestRng::deterministic_rng(RngAlgorithm::ChaCha),
         );
         // Largest error, mm, and measures that were given in all.
@@ -98,7 +99,7 @@ fn every_girth_that_is_given_is_met_on_the_surface() {
             prop_assert!(check.crossings.is_none(), "{given:?} crosses itself {:?}", check.crossings);
             Ok(())
         });
-        println!("{name}: {} measures of {people} people, off by {:.2} mm at most", count.get(), worst.get());
+        println!("{name}: {} measures of {count_of_people} people, off by {:.2} mm at most", count.get(), worst.get());
         result.unwrap_or_else(|e| panic!("{name}: {e}"));
     }
 }
