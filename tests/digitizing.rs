@@ -947,7 +947,12 @@ fn seams_are_suggested_without_names_of_edges() {
     // As other programs write it, without the names of edges.
     let dxf = cutting_dxf("Sample", &papers).replace("Edge: ", "Remark: ");
     let made = garment_file("sample", &read_dxf_text(&dxf, None).expect("pieces").pieces);
-    assert!(made.suggestions.iter().any(|s| (s.lengths[0] - 0.050f64.hypot(0.020)).abs() < 1e-4), "shoulders");
+    // The sides have notches, which match. With the shoulders as well the corner between them would be no opening.
+    let [found] = &made.suggestions[..] else { panic!("{:?}", made.suggestions) };
+    let sides = papers.iter().flat_map(|paper| &paper.sew).filter(|line| line.name == "side");
+    let length = sides.map(|line| line.path.length()).next().expect("a side");
+    assert!(found.lengths.iter().all(|own| (own - length).abs() < 1e-4), "{found:?}, {length}");
+    assert!(found.reasons.iter().any(|reason| reason == "notches match"), "{found:?}");
 }
 
 #[test]
