@@ -34,6 +34,14 @@ fn own(file: &str) -> Job {
     garment(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), None, 0.02)
 }
 
+/// The garment file `text` under a name.
+fn of_text(name: &str, text: &str) -> Job {
+    let file = format!("{name}.yaml");
+    let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
+    let loaded = read_text(name, &file, text).expect("a garment");
+    Job::new(Path::new(&file), loaded, &overrides).expect("a job")
+}
+
 /// A top with one sleeve, whose halves are each other's mirror images and whose cuff is round: its own mirror image.
 const ONE_SLEEVE: &str = "garment: 1
 body: woman_92
@@ -87,9 +95,7 @@ fn a_sleeve_of_which_there_is_one_has_an_arm_in_it() {
         .iter()
         .fold(shallow, |text, place| text.replace(place, if place.contains("arm") { "arm" } else { "wrist" }));
     for text in [ONE_SLEEVE, &silent] {
-        let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
-        let loaded = read_text("one sleeve", "one_sleeve.yaml", text).expect("a garment");
-        let job = Job::new(Path::new("one_sleeve.yaml"), loaded, &overrides).expect("a job");
+        let job = of_text("one_sleeve", text);
         let (_, rows) = worn(&job, &job.garment);
         let sleeve = rows.iter().find(|(_, edges)| edges.iter().any(|name| name.starts_with("cuff_front")));
         assert!(sleeve.is_some_and(|(ends, _)| ends.ends_with(" arm")), "{rows:?}");
@@ -128,9 +134,7 @@ fn halves_of_a_piece_on_the_fold_go_to_their_own_sides() {
     let turned =
         SWIMSUIT.replace("drawn: L", "drawn: #").replace("drawn: R", "drawn: L").replace("drawn: #", "drawn: R");
     for text in [SWIMSUIT, &turned] {
-        let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
-        let loaded = read_text("swimsuit", "swimsuit.yaml", text).expect("a garment");
-        let job = Job::new(Path::new("swimsuit.yaml"), loaded, &overrides).expect("a job");
+        let job = of_text("swimsuit", text);
         let own = [("left arm", "a.armhole.L"), ("right arm", "b.armhole.R"), ("left leg", "b.leg.L")];
         check(&job, &["head", "left arm", "right arm", "left leg", "right leg"], &own);
     }

@@ -14,7 +14,7 @@ const FORMATS: [(&str, &str); 3] = [("svg", "svg"), ("dxf", "dxf"), ("garmentcod
 /// The arguments of the process as clap reads them, with the format of an `import` that has none added.
 ///
 /// # Errors
-/// What clap says; of an `import` without a format whose file's ending says none, which formats there are.
+/// The error of clap. If an `import` has no format and the ending of its file tells none, the error lists the formats.
 pub(super) fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<Args, clap::Error> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let said = match Args::try_parse_from(&arguments) {

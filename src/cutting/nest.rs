@@ -15,7 +15,7 @@ pub struct PaperSize {
     pub number: usize,
 }
 
-/// What is switched on and off together in a drawing.
+/// A layer of a drawing: its papers are shown and hidden together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PaperLayer {
     /// The material of its papers.

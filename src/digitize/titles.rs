@@ -15,7 +15,7 @@ const OTHER: [&str; 16] = [
 const TITLE: [&str; 3] = ["piece name", "name", "title"];
 const NUMBER: [&str; 7] = ["piece", "no", "nr", "number", "part", "#", "pattern piece"];
 
-/// What is written on a piece, each with the number of its remark.
+/// The title and the number on a piece, each with the number of its remark.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Titles {
     /// The text in the largest letters that is a title; of several as large the first.
