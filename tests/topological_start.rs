@@ -106,6 +106,13 @@ fn a_shirt_whose_collar_rolls_along_a_curve_is_put_on() {
     }
 }
 
+/// Its cuffs start inside out as seen from anywhere above the hem.
+#[test]
+fn a_shirt_whose_star_is_found_at_its_hem_only_is_put_on() {
+    let Some(job) = case("fs_simon_placewords.yaml") else { return };
+    is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
+}
+
 #[test]
 fn a_kimono_with_its_band_is_put_on() {
     if let Some(job) = case("kimono.yaml") {

@@ -12,7 +12,7 @@ use super::balloon::Length;
 use super::circles::{Circle, Mouth, circles, room};
 use super::harmonic::{Film, OpeningRing};
 use super::reach;
-use super::unfold::{Facet, unfold};
+use super::unfold::{Facet, Rounds, unfold};
 use super::way_out::{WayOut, axis_of, ways_out};
 use crate::geometry::{Vec2, Vec3, sorted_pair};
 use crate::mannequin::PartKind;
@@ -81,17 +81,53 @@ impl GluedPart<'_> {
         let rims: Vec<OpeningRing> = self.mouths.iter().map(|mouth| mouth.ring.clone()).collect();
         let film = Film::new(self.count(), &pulls, &rims)?;
         let middles = Film::new(self.count(), &pulls, &self.middles())?;
-        self.sights(&film, axes)?.into_iter().take(TRIES).find_map(|mut sight| {
-            self.spread_out(&mut sight.directions);
-            if !unfold(&mut sight.directions, &self.facets(&sight.circles), &middles) {
-                return None;
+        let sights = self.sights(&film, axes)?;
+        let roomiest = sights.first()?.from;
+        let mut tried: Vec<Sight> = sights.into_iter().take(TRIES).collect();
+        tried.iter_mut().for_each(|sight| self.spread_out(&mut sight.directions));
+        let found = [Rounds::Short, Rounds::Long].into_iter().find_map(|rounds| {
+            tried.iter().find_map(|sight| self.unfolded(sight, &sight.directions, rounds, &middles))
+        })?;
+        let Sight { from, circles, directions, .. } = self.led_to(roomiest, found, &middles);
+        let ways = ways_out(&self.mouths, from, axes);
+        let mut nodes = self.at_reach(&directions, &circles, &rims)?;
+        reach::clear(&mut nodes, &self.triangles, &ways, from);
+        nodes.iter_mut().for_each(|x| *x += from);
+        Some(Star { nodes, ways })
+    }
+
+    /// A sight whose film is unfolded, from these directions. `None` where that does not succeed.
+    fn unfolded(&self, sight: &Sight, directions: &[Vec3], rounds: Rounds, middles: &Film) -> Option<Sight> {
+        let mut directions = directions.to_vec();
+        let is_unfolded = unfold(&mut directions, &self.facets(&sight.circles), middles, rounds);
+        is_unfolded.then(|| Sight { directions, circles: sight.circles.clone(), ..*sight })
+    }
+
+    /// Leads the point of an unfolded sight from which mouths overlap towards a point `to` from which they are apart:
+    /// in steps that keep it unfolded, as far as that goes. Started anew there it may not unfold: a shirt's cuff was
+    /// turned inside out from all points but those at its hem.
+    fn led_to(&self, to: Vec3, mut sight: Sight, middles: &Film) -> Sight {
+        let mut step = to - sight.from;
+        while sight.room < 0.0 && step.norm() >= APART {
+            let left = to - sight.from;
+            let from = sight.from + if left.norm() <= step.norm() { left } else { step };
+            let circles = circles(&self.mouths, from);
+            let mut directions = sight.directions.clone();
+            self.point_at(&circles, &mut directions);
+            let ahead = Sight { from, circles, directions: Vec::new(), room: room(&self.mouths, from), ..sight };
+            match self.unfolded(&ahead, &directions, Rounds::Long, middles) {
+                Some(unfolded) => sight = unfolded,
+                None => step /= 2.0,
             }
-            let ways = ways_out(&self.mouths, sight.from, axes);
-            let mut nodes = self.at_reach(&sight.directions, &sight.circles, &rims)?;
-            reach::clear(&mut nodes, &self.triangles, &ways, sight.from);
-            nodes.iter_mut().for_each(|x| *x += sight.from);
-            Some(Star { nodes, ways })
-        })
+        }
+        sight
+    }
+
+    /// Puts the nodes in the middles of mouths into the middles of their circles.
+    fn point_at(&self, circles: &[Circle], directions: &mut [Vec3]) {
+        for ((middle, _), circle) in self.caps().skip(self.holes.len()).zip(circles) {
+            directions[middle as usize] = circle.middle;
+        }
     }
 
     /// All nodes of the garment, and one in the middle of every hole and mouth.
@@ -152,9 +188,7 @@ impl GluedPart<'_> {
             mouth.on(*circle).for_each(|(n, direction)| given[n] = direction * circle.far);
         }
         let mut directions = film.spread_points(&given);
-        for ((middle, _), circle) in self.caps().skip(self.holes.len()).zip(&circles) {
-            directions[middle as usize] = circle.middle;
-        }
+        self.point_at(&circles, &mut directions);
         directions.iter_mut().for_each(|d| *d = d.try_normalize(1e-12).unwrap_or_else(Vec3::z));
         let [turned, winding] = self.turned(&directions);
         let room = room(&self.mouths, from);
