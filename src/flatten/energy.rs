@@ -78,7 +78,7 @@ impl<const N: usize> FlatEnergy<N> {
     pub(super) fn couplings(&self) -> Vec<[u32; 2]> {
         let free = |pair: &[u32; 2]| pair.iter().all(|&v| (v as usize) < self.free);
         let points = self.elements.iter().map(|e| e.corners).chain(self.springs.iter().map(|s| s.nodes));
-        let between = points.flat_map(|points| coupled(points));
+        let between = points.flat_map(coupled);
         between.chain(self.pushes.iter().flat_map(|s| coupled(s.nodes))).filter(free).collect()
     }
 
