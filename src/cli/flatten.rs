@@ -342,24 +342,23 @@ fn strain(piece: &PartReport, limit: &Limit) -> String {
 fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
     let place = piece.dart.map(|dart| {
         let (rim, tip, length) = (dart.rim, dart.tip, dart.length);
-        format!("a dart from vertex {rim} on the rim to vertex {tip} ({length:.0} mm) would ")
+        format!("a dart from vertex {rim} on the rim to vertex {tip} ({length:.0} mm) would relieve it most")
     });
-    let stopped = match piece.darts_stopped {
-        None if place.is_some() => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
-        Some(DartStop::NoneLeft) => format!(
-            "relieve it most, but --dart allows {}; allow more, or {}",
+    let stopped = match (piece.darts_stopped, place) {
+        (None, Some(place)) => return place + "; --dart auto cuts it",
+        (Some(DartStop::NoneLeft), Some(place)) => format!(
+            "{place}, but --dart allows {}; allow more, or {}",
             options.darts.map_or(0, Darts::most),
             in_two(piece)
         ),
-        Some(DartStop::Overlap) => format!("relieve it most, but make it lie on itself; {}", in_two(piece)),
-        None | Some(DartStop::NoPlace) => format!("no place for a dart can be told; {}", in_two(piece)),
+        (Some(DartStop::Overlap), Some(place)) => format!("{place}, but make it lie on itself; {}", in_two(piece)),
+        _ => format!("no place for a dart can be told; {}", in_two(piece)),
     };
-    let cut = match piece.darts {
-        0 => String::new(),
-        1 => "it has a dart; ".to_owned(),
-        several => format!("it has {several} darts; "),
-    };
-    cut + &place.unwrap_or_default() + &stopped
+    match piece.darts {
+        0 => stopped,
+        1 => format!("it has a dart; {stopped}"),
+        several => format!("it has {several} darts; {stopped}"),
+    }
 }
 
 /// To cut a piece in two, and where.

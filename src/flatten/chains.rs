@@ -71,7 +71,7 @@ mod tests {
         let elements = [[0, 1, 2], [0, 2, 3]].map(|c: [u32; 3]| FlatElement::from_plane(c, c.map(|v| at[v as usize])));
         let side = |k: usize| LengthSpring::between(sorted_pair([rim[k], rim[(k + 1) % 4]]), 0.9 + 0.1 * k as f64, 3.0);
         let springs = Springs { held: (0..4).map(side).collect(), ..Springs::default() };
-        let every = FlatEnergy::new(4, elements.into(), springs, Law { warp: Some(Vec2::y()), ..Law::default() });
+        let every = FlatEnergy::new(4, elements, springs, Law { warp: Some(Vec2::y()), ..Law::default() });
         let energy = every.with_chains(&[rim], &[1, 3].into());
         (energy, vec![Vec2::new(0.0, 0.1), Vec2::new(1.2, 0.0), Vec2::new(1.1, 1.3), Vec2::new(-0.1, 1.0)])
     }
@@ -113,7 +113,7 @@ mod tests {
         // What the sparse matrix and the chains make of a vector must be taken back to it.
         let vector: Vec<f64> = (0..8).map(|k| f64::from(k * k % 5) - 1.0).collect();
         let mut image = vec![0.0; 8];
-        super::super::energy::Curvature::new(&energy)
+        super::super::energy::Curvature::<f64>::new(&energy)
             .expect("a pattern")
             .update(&energy, &flat, Taken::Positive)
             .multiply(&vector, &mut image);

@@ -6,25 +6,22 @@ use nalgebra::Matrix2;
 
 use super::FlattenError;
 use super::barrier::Barrier;
-use super::element::{CORNER_PAIRS, FlatElement, Taken};
+use super::element::{FlatElement, Taken, pairs};
 use super::law::Law;
 use super::spring::{Chain, LengthSpring, Springs};
 use crate::geometry::Vec2;
-use crate::linear::{BlockSlot, SymmetricMatrix, SymmetricPattern};
+use crate::linear::{BlockSlot, Scalar, SymmetricMatrix, SymmetricPattern};
 
 /// Stiffness of a weak tie of every vertex to where it is, in units in which the softest bending of the piece in its
 /// plane has about ten: it makes the second derivative, which knows nothing of rigid motions, invertible, and is too
 /// weak to slow anything else down. It is part of the step only, never of the energy.
 const TIE: f64 = 1e-4;
 
-/// The numbers of the curvature.
-pub(super) type Real = f64;
-
 /// The distortion of a piece's flat position. It is divided by the piece's area, so it has no unit: a uniform stretch
 /// by one per cent both ways costs 2·10⁻⁴.
-pub(super) struct FlatEnergy {
-    pub(super) elements: Vec<FlatElement>,
-    pub(super) springs: Vec<LengthSpring>,
+pub(super) struct FlatEnergy<const N: usize = 3> {
+    pub(super) elements: Arc<[FlatElement<N>]>,
+    pub(super) springs: Vec<LengthSpring<N>>,
     /// The first so many springs get exactly their lengths; the others are only springs.
     held: usize,
     /// Runs of the others whose lengths together are exact.
@@ -40,8 +37,14 @@ pub(super) struct FlatEnergy {
     pub(super) free: usize,
 }
 
-impl FlatEnergy {
-    pub(super) fn new(vertices: usize, elements: Vec<FlatElement>, springs: Springs, law: Law) -> Self {
+impl<const N: usize> FlatEnergy<N> {
+    pub(super) fn new(
+        vertices: usize,
+        elements: impl Into<Arc<[FlatElement<N>]>>,
+        springs: Springs<N>,
+        law: Law,
+    ) -> Self {
+        let elements = elements.into();
         let total_area = elements.iter().map(|e| e.area).sum();
         let held = springs.held.len();
         let chains = springs.chains;
@@ -61,22 +64,22 @@ impl FlatEnergy {
     }
 
     /// The energy of a part, in the same measure, of which only the first `free` vertices move.
-    pub(super) fn part(&self, vertices: usize, free: usize, elements: Vec<FlatElement>, springs: Springs) -> Self {
+    pub(super) fn part(
+        &self,
+        vertices: usize,
+        free: usize,
+        elements: impl Into<Arc<[FlatElement<N>]>>,
+        springs: Springs<N>,
+    ) -> Self {
         Self { total_area: self.total_area, free, ..Self::new(vertices, elements, springs, self.law) }
     }
 
     /// Pairs of free vertices whose positions the energy couples, some of them twice.
     pub(super) fn couplings(&self) -> Vec<[u32; 2]> {
         let free = |pair: &[u32; 2]| pair.iter().all(|&v| (v as usize) < self.free);
-        let sides =
-            self.elements.iter().flat_map(|e| CORNER_PAIRS[3..].iter().map(|&(k, l)| [e.corners[k], e.corners[l]]));
-        let springs = self.lines().flat_map(|s| CORNER_PAIRS[3..].iter().map(|&(k, l)| [s.nodes[k], s.nodes[l]]));
-        sides.chain(springs).filter(free).collect()
-    }
-
-    /// All that couples vertices besides triangles.
-    fn lines(&self) -> impl Iterator<Item = &LengthSpring> {
-        self.springs.iter().chain(&self.pushes)
+        let points = self.elements.iter().map(|e| e.corners).chain(self.springs.iter().map(|s| s.nodes));
+        let between = points.flat_map(coupled);
+        between.chain(self.pushes.iter().flat_map(|s| coupled(s.nodes))).filter(free).collect()
     }
 
     /// Takes note of the pushes at a position for its curvature; whether other vertices are coupled than before.
@@ -98,7 +101,7 @@ impl FlatEnergy {
     /// Its derivative by every coordinate, 1/m.
     pub(super) fn gradient(&self, flat: &[Vec2], out: &mut [Vec2]) {
         out.fill(Vec2::zeros());
-        for e in &self.elements {
+        for e in self.elements.iter() {
             let scale = e.area / self.total_area;
             for (v, force) in e.corners.into_iter().zip(e.forces(&self.law.stress(&e.jacobian(flat)))) {
                 out[v as usize] += force * scale;
@@ -121,13 +124,18 @@ impl FlatEnergy {
     }
 }
 
-impl FlatEnergy {
+/// The pairs of these points.
+fn coupled<const N: usize>(points: [u32; N]) -> impl Iterator<Item = [u32; 2]> {
+    pairs(N).filter(|(k, l)| k != l).map(move |(k, l)| [points[k], points[l]])
+}
+
+impl<const N: usize> FlatEnergy<N> {
     fn chain_length(&self, chain: &Chain, flat: &[Vec2]) -> f64 {
         self.links(chain).iter().map(|s| s.length(flat)).sum()
     }
 
     /// The springs of a chain.
-    fn links(&self, chain: &Chain) -> &[LengthSpring] {
+    fn links(&self, chain: &Chain) -> &[LengthSpring<N>] {
         &self.springs[self.held..][chain.springs.clone()]
     }
 
@@ -155,7 +163,7 @@ impl FlatEnergy {
         self.chains.iter().map(slopes).collect()
     }
 
-    pub(super) fn held(&self) -> &[LengthSpring] {
+    pub(super) fn held(&self) -> &[LengthSpring<N>] {
         &self.springs[..self.held]
     }
 
@@ -185,63 +193,65 @@ impl FlatEnergy {
     }
 }
 
-/// The second derivative of a [`FlatEnergy`], or a positive definite one near it, with the places of its blocks worked
-/// out once.
-pub(super) struct Curvature {
-    matrix: SymmetricMatrix<Real>,
-    /// None where a vertex stays where it is.
-    element_slots: Vec<[Option<BlockSlot>; 6]>,
-    spring_slots: Vec<[Option<BlockSlot>; 6]>,
+/// The second derivative of a [`FlatEnergy`], or a positive definite one near it.
+pub(super) struct Curvature<T> {
+    matrix: SymmetricMatrix<T>,
     ties: Vec<(BlockSlot, f64)>,
 }
 
-impl Curvature {
-    pub(super) fn new(energy: &FlatEnergy) -> Result<Self, FlattenError> {
-        let pairs = energy.couplings().into_iter().map(|[a, b]| (a as usize, b as usize));
-        let pattern = SymmetricPattern::planar_blocks(energy.free, pairs).map_err(|_| FlattenError::Breakdown)?;
+impl<T: Scalar> Curvature<T> {
+    pub(super) fn new<const N: usize>(energy: &FlatEnergy<N>) -> Result<Self, FlattenError> {
+        let coupled = energy.couplings().into_iter().map(|[a, b]| (a as usize, b as usize));
+        let pattern = SymmetricPattern::planar_blocks(energy.free, coupled).map_err(|_| FlattenError::Breakdown)?;
         let pattern = Arc::new(pattern);
-        let slots =
-            |nodes: [u32; 3]| CORNER_PAIRS.map(|(k, l)| pattern.block_slot(nodes[k] as usize, nodes[l] as usize));
-        let element_slots = energy.elements.iter().map(|e| slots(e.corners)).collect();
-        let spring_slots = energy.lines().map(|s| slots(s.nodes)).collect();
         let mut ties = vec![0.0; energy.vertices];
-        for e in &energy.elements {
+        for e in energy.elements.iter() {
             for v in e.corners {
-                ties[v as usize] += TIE * e.area / 3.0 / (energy.total_area * energy.total_area);
+                ties[v as usize] += TIE * e.area / N as f64 / (energy.total_area * energy.total_area);
             }
         }
         let ties = ties.into_iter().enumerate().filter_map(|(v, tie)| Some((pattern.block_slot(v, v)?, tie))).collect();
-        Ok(Self { matrix: SymmetricMatrix::zeros(pattern), element_slots, spring_slots, ties })
+        Ok(Self { matrix: SymmetricMatrix::zeros(pattern), ties })
     }
 
     /// Fills the matrix for a position without flipped triangles, without the part of [`FlatEnergy::stiff_chains`].
-    pub(super) fn update(&mut self, energy: &FlatEnergy, flat: &[Vec2], taken: Taken) -> &SymmetricMatrix<Real> {
-        self.matrix.clear();
-        for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
-            let mut blocks = [Matrix2::zeros(); 6];
-            energy.law.modes(&e.jacobian(flat), |mode| e.add_mode(mode, taken, &mut blocks));
-            for (slot, block) in slots.iter().zip(blocks) {
-                if let Some(slot) = slot {
-                    self.matrix.add_block(*slot, &(block * (e.area / energy.total_area)));
-                }
+    pub(super) fn update<const N: usize>(
+        &mut self,
+        energy: &FlatEnergy<N>,
+        flat: &[Vec2],
+        taken: Taken,
+    ) -> &SymmetricMatrix<T> {
+        let pattern = self.matrix.pattern().clone();
+        let matrix = &mut self.matrix;
+        matrix.clear();
+        let mut add = |a: u32, b: u32, block: &Matrix2<f64>| {
+            // None where a vertex stays where it is.
+            if let Some(slot) = pattern.block_slot(a as usize, b as usize) {
+                matrix.add_block(slot, block);
             }
+        };
+        for e in energy.elements.iter() {
+            let mut hessian = energy.law.curvature(&e.jacobian(flat), taken);
+            hessian.0.as_flattened_mut().iter_mut().for_each(|number| *number *= e.area / energy.total_area);
+            let mut coupled = pairs(N);
+            e.blocks(&hessian, |block| {
+                if let Some((k, l)) = coupled.next() {
+                    add(e.corners[k], e.corners[l], &block);
+                }
+            });
         }
-        let pulls = energy.pulls(flat).into_iter().chain(std::iter::repeat(0.0));
-        for ((s, slots), pulled) in energy.lines().zip(&self.spring_slots).zip(pulls) {
-            let block = s.curvature(flat, pulled, taken) / energy.total_area;
-            for (slot, (k, l)) in slots.iter().zip(CORNER_PAIRS) {
-                let share = s.shares[k] * s.shares[l];
-                if let Some(slot) = slot.filter(|_| share != 0.0) {
-                    self.matrix.add_block(slot, &(block * share));
-                }
-            }
+        for (s, pulled) in energy.springs.iter().zip(energy.pulls(flat)) {
+            add_spring(&mut add, s, &(s.curvature(flat, pulled, taken) / energy.total_area));
+        }
+        for s in &energy.pushes {
+            add_spring(&mut add, s, &(s.curvature(flat, 0.0, taken) / energy.total_area));
         }
         self.tie(1.0)
     }
 
     /// The matrix with every vertex tied `times` as fast again to where it is, for where it is not positive to
     /// rounding: at a triangle that is almost flat one stretch has millions of times the curvature of its neighbours.
-    pub(super) fn tie(&mut self, times: f64) -> &SymmetricMatrix<Real> {
+    pub(super) fn tie(&mut self, times: f64) -> &SymmetricMatrix<T> {
         for &(slot, tie) in &self.ties {
             self.matrix.add_block(slot, &(Matrix2::identity() * (tie * times)));
         }
@@ -250,5 +260,19 @@ impl Curvature {
 
     pub(super) fn pattern(&self) -> &Arc<SymmetricPattern> {
         self.matrix.pattern()
+    }
+}
+
+/// Adds a spring's second derivative by its line.
+fn add_spring<const N: usize>(
+    add: &mut impl FnMut(u32, u32, &Matrix2<f64>),
+    spring: &LengthSpring<N>,
+    block: &Matrix2<f64>,
+) {
+    for (k, l) in pairs(N) {
+        let share = spring.shares[k] * spring.shares[l];
+        if share != 0.0 {
+            add(spring.nodes[k], spring.nodes[l], &(block * share));
+        }
     }
 }

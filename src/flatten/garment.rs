@@ -1,6 +1,7 @@
 //! Flattening every piece of a draped garment.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -178,7 +179,7 @@ fn draw_out(sheet: &mut TargetSurface<'_>, first: u32, targets: &Targets) -> Has
         *target = wanted;
         if let Some(t) = edge.triangles[0] {
             let t = t as usize;
-            sheet.elements[t] = stretched(sheet.surface, t, [a, b], ratio);
+            Arc::make_mut(&mut sheet.elements)[t] = stretched(sheet.surface, t, [a, b], ratio);
         }
         if (ratio - 1.0).abs() > DRAWN {
             drawn.extend([a, b]);
@@ -190,7 +191,7 @@ fn draw_out(sheet: &mut TargetSurface<'_>, first: u32, targets: &Targets) -> Has
 /// Gives triangles that a seam or elastic forces, those with a corner on it, their drawn shape: as draped they show
 /// what draws them in, not the cloth. A strip gathered to a sixth would be flattened into a coil.
 fn let_out(sheet: &mut TargetSurface<'_>, drawn: &[Vec2], forced: &HashSet<u32>) {
-    for element in &mut sheet.elements {
+    for element in Arc::make_mut(&mut sheet.elements) {
         let corners = element.corners;
         if !corners.iter().any(|v| forced.contains(v)) {
             continue;

@@ -51,6 +51,7 @@ pub use overlap::rim_crossings;
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
 use barrier::Barrier;
@@ -223,7 +224,7 @@ struct TargetSurface<'a> {
     surface: &'a TriMesh,
     topology: Topology,
     rims: Vec<Vec<u32>>,
-    elements: Vec<FlatElement>,
+    elements: Arc<[FlatElement]>,
     /// Wanted lengths of `topology.rim_edges()`, in that order.
     rim_targets: Vec<f64>,
     /// By how much the triangles' angles at a vertex should be wider than in the surface.
@@ -349,7 +350,8 @@ fn relax_sheet(
     }
     if held && itself == Itself::MayMeet {
         coarse::approach(&energy, &mut positions);
-        zone = Zone::new(&energy, &positions);
+        // The steps of a weave are few: a zone would take as many again.
+        zone = Some(options.mode).filter(|mode| *mode != Mode::Woven).and_then(|_| Zone::new(&energy, &positions));
     }
     let goal = Goal::of(options, held);
     if itself == Itself::KeptApart {

@@ -77,7 +77,7 @@ pub(super) struct EnergyDescent {
 }
 
 impl EnergyDescent {
-    pub(super) fn new(energy: &FlatEnergy) -> Result<Self, FlattenError> {
+    pub(super) fn new<const N: usize>(energy: &FlatEnergy<N>) -> Result<Self, FlattenError> {
         Ok(Self { inverse: Inverse::new(energy)?, apart: Vec::new() })
     }
 
@@ -89,9 +89,9 @@ impl EnergyDescent {
     /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the goal is met; the
     /// forces that hold the springs are then those in `energy`. On the long way to the first minimum `zone` settles
     /// before every step.
-    pub(super) fn down(
+    pub(super) fn down<const N: usize>(
         &mut self,
-        energy: &mut FlatEnergy,
+        energy: &mut FlatEnergy<N>,
         flat: &mut [Vec2],
         goal: &Goal,
         mut zone: Option<&mut Zone>,
@@ -153,7 +153,7 @@ impl EnergyDescent {
     }
 
     /// Takes the curvature anew.
-    fn renew(&mut self, energy: &mut FlatEnergy, flat: &[Vec2]) -> Result<(), FlattenError> {
+    fn renew<const N: usize>(&mut self, energy: &mut FlatEnergy<N>, flat: &[Vec2]) -> Result<(), FlattenError> {
         if energy.note_pushes(flat) {
             self.inverse = Inverse::new(energy)?;
         }
@@ -161,9 +161,9 @@ impl EnergyDescent {
     }
 
     /// How far to go along a direction, and the energy there.
-    fn step(
+    fn step<const N: usize>(
         &self,
-        energy: &FlatEnergy,
+        energy: &FlatEnergy<N>,
         flat: &[Vec2],
         direction: &[Vec2],
         slope: f64,
@@ -179,7 +179,7 @@ impl EnergyDescent {
 
 /// Whether every step has a factor of its own. Threads that turn bend the way of a weave, so that what earlier steps
 /// tell leads astray. So a weave needs a fifth as many steps, and a third of the time.
-fn is_newton(energy: &FlatEnergy) -> bool {
+fn is_newton<const N: usize>(energy: &FlatEnergy<N>) -> bool {
     energy.law.warp.is_some()
 }
 
@@ -192,8 +192,8 @@ pub(super) fn go(energy: &FlatEnergy, flat: &mut [Vec2], direction: &[Vec2]) {
 
 /// Backtracks from the full step, or from just before the first flip, to a lower energy with the rims `apart`; the step
 /// and that energy.
-fn search(
-    energy: &FlatEnergy,
+fn search<const N: usize>(
+    energy: &FlatEnergy<N>,
     flat: &[Vec2],
     direction: &[Vec2],
     slope: f64,
@@ -216,8 +216,8 @@ fn search(
 
 /// A step to a lower energy, doubled as long as the energy falls further; the step and that energy. Of a step, the
 /// energy before it and after it.
-fn lengthened(
-    energy: &FlatEnergy,
+fn lengthened<const N: usize>(
+    energy: &FlatEnergy<N>,
     flat: &[Vec2],
     direction: &[Vec2],
     slope: f64,
@@ -242,16 +242,13 @@ fn lengthened(
 }
 
 /// The smallest positive step at which some triangle loses its area.
-fn first_flip(energy: &FlatEnergy, flat: &[Vec2], direction: &[Vec2]) -> f64 {
-    let corner = |field: &[Vec2], corners: [u32; 3]| corners.map(|v| field[v as usize]);
+fn first_flip<const N: usize>(energy: &FlatEnergy<N>, flat: &[Vec2], direction: &[Vec2]) -> f64 {
     let mut first = f64::INFINITY;
-    for e in &energy.elements {
-        let [a, b, c] = corner(flat, e.corners);
-        let [p, q, r] = corner(direction, e.corners);
-        let (u, v, du, dv) = (b - a, c - a, q - p, r - p);
-        // Area along the step: quadratic · s² + linear · s + constant.
-        let (constant, linear, quadratic) = (u.perp(&v), u.perp(&dv) + du.perp(&v), du.perp(&dv));
-        first = first.min(smallest_positive_root(quadratic, linear, constant));
+    for e in energy.elements.iter() {
+        let (at, by) = (e.jacobian(flat), e.jacobian(direction));
+        // det J along the step: quadratic · s² + linear · s + constant.
+        let linear = at.m11 * by.m22 + by.m11 * at.m22 - at.m12 * by.m21 - by.m12 * at.m21;
+        first = first.min(smallest_positive_root(by.determinant(), linear, at.determinant()));
     }
     first
 }

@@ -47,11 +47,11 @@ impl Elastic {
 
 /// A spring that wants a line to have a length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LengthSpring {
+pub(super) struct LengthSpring<const N: usize = 3> {
     /// The vertices that the line depends on.
-    pub(super) nodes: [u32; 3],
+    pub(super) nodes: [u32; N],
     /// The line is the sum of the nodes' positions times these, which sum to zero.
-    pub(super) shares: [f64; 3],
+    pub(super) shares: [f64; N],
     /// The energy of its length.
     pub(super) elastic: Elastic,
 }
@@ -67,11 +67,11 @@ pub(super) struct Chain {
 
 /// The springs of an energy.
 #[derive(Default)]
-pub(super) struct Springs {
+pub(super) struct Springs<const N: usize = 3> {
     /// Those that get exactly their lengths.
-    pub(super) held: Vec<LengthSpring>,
+    pub(super) held: Vec<LengthSpring<N>>,
     /// Those that do not.
-    pub(super) free: Vec<LengthSpring>,
+    pub(super) free: Vec<LengthSpring<N>>,
     /// Those of the latter whose lengths together are exact.
     pub(super) chains: Vec<Chain>,
 }
@@ -82,11 +82,13 @@ impl LengthSpring {
         let elastic = Elastic { target, weight, pull: 0.0 };
         Self { nodes: [a, b, b], shares: [-1.0, 1.0, 0.0], elastic }
     }
+}
 
+impl<const N: usize> LengthSpring<N> {
     pub(super) fn along(&self, flat: &[Vec2]) -> Vec2 {
-        let [a, b, c] = self.nodes.map(|v| flat[v as usize]);
+        let first = flat[self.nodes[0] as usize];
         // The shares sum to zero, so differences to the first node do.
-        (b - a) * self.shares[1] + (c - a) * self.shares[2]
+        self.nodes[1..].iter().zip(&self.shares[1..]).map(|(&v, share)| (flat[v as usize] - first) * *share).sum()
     }
 
     pub(super) fn length(&self, flat: &[Vec2]) -> f64 {

@@ -26,10 +26,12 @@ const LEAST: f64 = 0.2;
 /// the warp is stretched by 1/(|b| sin φ) and the weft by 1/(|a| sin φ), where φ is the angle from a to b, and the
 /// tangent of the shear is cot φ.
 struct Woven {
-    /// Derivatives of ln |a| and of ln |b| by J.
-    longer: [Matrix2<f64>; 2],
-    /// Derivatives of the directions of a and b by J.
-    turned: [Matrix2<f64>; 2],
+    /// p and q.
+    across: [Vec2; 2],
+    /// a and b.
+    images: [Vec2; 2],
+    /// |a|² and |b|².
+    squares: [f64; 2],
     /// ln t of warp and weft.
     strains: [f64; 2],
     /// cot φ.
@@ -38,20 +40,28 @@ struct Woven {
 
 impl Woven {
     /// Of a J with det J > 0.
+    #[inline]
     fn new(jacobian: &Matrix2<f64>, warp: Vec2) -> Self {
-        let [p, q] = [Vec2::new(-warp.y, warp.x), -warp];
-        let [a, b] = [p, q].map(|d| jacobian.transpose() * d);
-        let [aa, bb] = [a, b].map(|image| image.norm_squared());
-        let det = a.perp(&b);
-        let turn = |d: Vec2| Vec2::new(-d.y, d.x);
-        Self {
-            longer: [p * a.transpose() / aa, q * b.transpose() / bb],
-            turned: [p * turn(a).transpose() / aa, q * turn(b).transpose() / bb],
-            strains: [aa, bb].map(|square| 0.5 * (square / (det * det)).ln()),
-            tangent: a.dot(&b) / det,
-        }
+        let across = [Vec2::new(-warp.y, warp.x), -warp];
+        let images = across.map(|d| jacobian.transpose() * d);
+        let squares = images.map(|image| image.norm_squared());
+        let det = images[0].perp(&images[1]);
+        let strains = squares.map(|square| 0.5 * (square / (det * det)).ln());
+        Self { across, images, squares, strains, tangent: images[0].dot(&images[1]) / det }
     }
 
+    /// Derivatives of ln |a| and of ln |b| by J.
+    fn longer(&self) -> [Matrix2<f64>; 2] {
+        [0, 1].map(|k| self.across[k] * self.images[k].transpose() / self.squares[k])
+    }
+
+    /// Derivatives of the directions of a and b by J.
+    fn turned(&self) -> [Matrix2<f64>; 2] {
+        let turn = |d: Vec2| Vec2::new(-d.y, d.x);
+        [0, 1].map(|k| self.across[k] * turn(self.images[k]).transpose() / self.squares[k])
+    }
+
+    #[inline]
     fn density(&self) -> f64 {
         let [warp, weft] = self.strains;
         warp * warp + weft * weft + JAMMED * jam(self.tangent).powi(2)
@@ -67,7 +77,8 @@ impl Woven {
 
     fn stress(&self) -> Matrix2<f64> {
         let [by_a, by_b, by_angle] = self.slopes();
-        self.longer[0] * by_a + self.longer[1] * by_b + (self.turned[1] - self.turned[0]) * by_angle
+        let (longer, turned) = (self.longer(), self.turned());
+        longer[0] * by_a + longer[1] * by_b + (turned[1] - turned[0]) * by_angle
     }
 
     /// Second derivative of Ψ by φ.
@@ -91,9 +102,9 @@ impl Woven {
         let left = Matrix2::new(bend + by_a, -bend, -bend, bend + by_b)
             - mixed[0] * mixed[0].transpose() / stiff[0]
             - mixed[1] * mixed[1].transpose() / stiff[1];
-        let turned = |share: Vec2| self.turned[0] * share.x + self.turned[1] * share.y;
-        let along =
-            |k: usize| CurvatureMode { curvature: stiff[k], mode: self.longer[k] + turned(mixed[k] / stiff[k]) };
+        let (longer, directions) = (self.longer(), self.turned());
+        let turned = |share: Vec2| directions[0] * share.x + directions[1] * share.y;
+        let along = |k: usize| CurvatureMode { curvature: stiff[k], mode: longer[k] + turned(mixed[k] / stiff[k]) };
         let (mean, half, radius) = {
             let half = (left.m11 - left.m22) / 2.0;
             ((left.m11 + left.m22) / 2.0, half, half.hypot(left.m12))

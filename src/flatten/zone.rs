@@ -41,7 +41,7 @@ impl Zone {
         vertices.iter().enumerate().for_each(|(k, &v)| local[v as usize] = k as u32);
         let inside = |e: &&FlatElement| e.corners.iter().any(|&v| ring[v as usize] < RINGS);
         let element = |e: &FlatElement| FlatElement { corners: e.corners.map(|v| local[v as usize]), ..*e };
-        let elements = energy.elements.iter().filter(inside).map(element).collect();
+        let elements: Vec<FlatElement> = energy.elements.iter().filter(inside).map(element).collect();
         let spring = |s: &LengthSpring| LengthSpring { nodes: s.nodes.map(|v| local[v as usize]), ..*s };
         let (held, others) = energy.springs.split_at(energy.held().len());
         let springs = Springs {

@@ -151,7 +151,7 @@ impl<T: Scalar> Cholesky<T> {
                     MemStack::new(&mut memory),
                 );
             }
-            Elimination::Fronts(tree) => rhs.chunks_exact_mut(rows).for_each(|x| fronts::solve(tree, &self.values, x)),
+            Elimination::Fronts(tree) => fronts::solve(tree, &self.values, rhs),
         }
     }
 

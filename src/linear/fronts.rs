@@ -19,6 +19,8 @@ const FACTORED_ALONE: f64 = 1e6;
 const SOLVED_ALONE: f64 = 4e5;
 /// Rows of a front that one thread keeps.
 const PANEL: usize = 96;
+/// Right-hand sides that are solved for at once, at most.
+const TOGETHER: usize = 8;
 /// Partial sums of a scalar product, which are added at its end.
 const LANES: usize = 8;
 
@@ -169,40 +171,63 @@ fn subtract_square<T: Scalar>(update: MatMut<T>, bottom: MatRef<T>) {
     );
 }
 
-/// Solves L Lᵀ x = b, where `x` is b at first.
+/// Solves L Lᵀ x = b for right-hand sides that follow one another in `x`, of which each holds b at first. Several at a
+/// time: L is read once for all of them.
 pub(super) fn solve<T: Scalar>(tree: &Tree, values: &[T], x: &mut [T]) {
-    let zero = T::from_f64(0.0);
-    let mut placed = vec![zero; x.len()];
+    let rows = tree.order.len();
+    let mut rest = x;
+    while !rest.is_empty() {
+        let taken = (rest.len() / rows).min(TOGETHER);
+        let (now, after) = rest.split_at_mut(taken * rows);
+        rest = after;
+        match taken {
+            1 => solve_together::<T, 1, LANES>(tree, values, now),
+            2 => solve_together::<T, 2, 4>(tree, values, now),
+            3 | 4 => solve_together::<T, 4, 2>(tree, values, now),
+            _ => solve_together::<T, TOGETHER, 1>(tree, values, now),
+        }
+    }
+}
+
+/// Solves for up to `W` right-hand sides at once, with scalar products of `L` partial sums.
+fn solve_together<T: Scalar, const W: usize, const L: usize>(tree: &Tree, values: &[T], x: &mut [T]) {
+    let zero = [T::from_f64(0.0); W];
+    let rows = tree.order.len();
+    let mut placed = vec![zero; rows];
     let mut below = vec![zero; tree.below];
-    parallel::for_each(&mut placed, parallel::LIGHT, |k, out| *out = x[tree.order[k] as usize]);
+    parallel::for_each(&mut placed, parallel::LIGHT, |k, out| {
+        out.iter_mut().zip(x.chunks_exact(rows)).for_each(|(out, side)| *out = side[tree.order[k] as usize]);
+    });
     let whole: f64 = tree.roots.iter().map(|&t| tree.fronts[t].work).sum();
     if whole <= SOLVED_ALONE {
         let mut all = FrontNumbers { x: &mut placed, below: &mut below };
         (0..tree.fronts.len()).for_each(|f| all.forward(tree, f, 0, values));
-        (0..tree.fronts.len()).rev().for_each(|f| all.backward(tree, f, 0, values));
+        (0..tree.fronts.len()).rev().for_each(|f| all.backward::<L>(tree, f, 0, values));
     } else {
         parallel::pass(|| {
             let mut all = FrontNumbers { x: &mut placed, below: &mut below };
             forward(tree, &mut all.split(tree, &tree.roots), values);
-            backward(tree, &mut all.split(tree, &tree.roots), values);
+            backward::<T, W, L>(tree, &mut all.split(tree, &tree.roots), values);
         });
     }
-    for (place, &row) in tree.order.iter().enumerate() {
-        x[row as usize] = placed[place];
+    for (side, out) in x.chunks_exact_mut(rows).enumerate() {
+        for (place, &row) in tree.order.iter().enumerate() {
+            out[row as usize] = placed[place][side];
+        }
     }
 }
 
-/// The numbers of a right-hand side that belong to a row of fronts.
-struct FrontNumbers<'x, T> {
+/// The numbers of `W` right-hand sides that belong to a row of fronts.
+struct FrontNumbers<'x, T, const W: usize> {
     /// At their columns.
-    x: &'x mut [T],
+    x: &'x mut [[T; W]],
     /// At the rows below these, front by front.
-    below: &'x mut [T],
+    below: &'x mut [[T; W]],
 }
 
-impl<T: Scalar> FrontNumbers<'_, T> {
+impl<T: Scalar, const W: usize> FrontNumbers<'_, T, W> {
     /// The parts of the subtrees of some fronts that follow one another, from the first front of this part on.
-    fn split(&mut self, tree: &Tree, fronts: &[usize]) -> Vec<(usize, FrontNumbers<'_, T>)> {
+    fn split(&mut self, tree: &Tree, fronts: &[usize]) -> Vec<(usize, FrontNumbers<'_, T, W>)> {
         let (mut x, mut below) = (&mut *self.x, &mut *self.below);
         let mut out = Vec::with_capacity(fronts.len());
         for &t in fronts {
@@ -223,29 +248,29 @@ impl<T: Scalar> FrontNumbers<'_, T> {
         let x = &mut self.x[front.start - begin.start..][..columns];
         let (before, below) = self.below.split_at_mut(front.below - begin.below);
         let below = &mut below[..rows - columns];
-        below.fill(T::from_f64(0.0));
+        below.fill([T::from_f64(0.0); W]);
         for child in front.children.iter().map(|&c| &tree.fronts[c]) {
             let of_child = &before[child.below - begin.below..][..child.relative.len()];
             let inner = child.relative.partition_point(|&k| (k as usize) < columns);
             for (&k, value) in child.relative[..inner].iter().zip(of_child) {
-                x[k as usize] += *value;
+                add(&mut x[k as usize], value);
             }
             for (&k, value) in child.relative[inner..].iter().zip(&of_child[inner..]) {
-                below[k as usize - columns] += *value;
+                add(&mut below[k as usize - columns], value);
             }
         }
         for c in 0..columns {
             let column = &values[front.values + c * rows..][..rows];
-            let y = x[c] / column[c];
+            let y = x[c].map(|x| x / column[c]);
             x[c] = y;
-            x[c + 1..].iter_mut().zip(&column[c + 1..columns]).for_each(|(x, l)| *x -= *l * y);
-            below.iter_mut().zip(&column[columns..]).for_each(|(x, l)| *x -= *l * y);
+            subtract_column(&mut x[c + 1..], &column[c + 1..columns], &y);
+            subtract_column(below, &column[columns..], &y);
         }
     }
 
     /// Lᵀ x = y at the columns of front `f`, in a part that begins with front `first`, where `below` holds the solution
     /// at the rows below. Hands the solution on to its children.
-    fn backward(&mut self, tree: &Tree, f: usize, first: usize, values: &[T]) {
+    fn backward<const L: usize>(&mut self, tree: &Tree, f: usize, first: usize, values: &[T]) {
         let (front, begin) = (&tree.fronts[f], &tree.fronts[first]);
         let (columns, rows) = (front.columns, front.rows());
         let x = &mut self.x[front.start - begin.start..][..columns];
@@ -253,10 +278,14 @@ impl<T: Scalar> FrontNumbers<'_, T> {
         let below = &below[..rows - columns];
         for c in (0..columns).rev() {
             let column = &values[front.values + c * rows..][..rows];
-            let mut y = x[c];
-            y -= dot(&column[c + 1..columns], &x[c + 1..]);
-            y -= dot(&column[columns..], below);
-            x[c] = y / column[c];
+            let inner = dot::<T, W, L>(&column[c + 1..columns], &x[c + 1..]);
+            let outer = dot::<T, W, L>(&column[columns..], below);
+            for k in 0..W {
+                let mut y = x[c][k];
+                y -= inner[k];
+                y -= outer[k];
+                x[c][k] = y / column[c];
+            }
         }
         for child in front.children.iter().map(|&c| &tree.fronts[c]) {
             let of_child = &mut before[child.below - begin.below..][..child.relative.len()];
@@ -265,8 +294,22 @@ impl<T: Scalar> FrontNumbers<'_, T> {
     }
 }
 
+fn add<T: Scalar, const W: usize>(sum: &mut [T; W], numbers: &[T; W]) {
+    sum.iter_mut().zip(numbers).for_each(|(sum, number)| *sum += *number);
+}
+
+/// Subtracts a column times the numbers `y`.
+#[inline]
+fn subtract_column<T: Scalar, const W: usize>(out: &mut [[T; W]], column: &[T], y: &[T; W]) {
+    for (out, l) in out.iter_mut().zip(column) {
+        for k in 0..W {
+            out[k] -= *l * y[k];
+        }
+    }
+}
+
 /// The solution at the rows below a child, whose places in its parent are `relative`.
-fn hand_on<T: Scalar>(relative: &[u32], x: &[T], below: &[T], of_child: &mut [T]) {
+fn hand_on<T: Scalar, const W: usize>(relative: &[u32], x: &[[T; W]], below: &[[T; W]], of_child: &mut [[T; W]]) {
     let inner = relative.partition_point(|&k| (k as usize) < x.len());
     for (out, &k) in of_child.iter_mut().zip(&relative[..inner]) {
         *out = x[k as usize];
@@ -277,7 +320,7 @@ fn hand_on<T: Scalar>(relative: &[u32], x: &[T], below: &[T], of_child: &mut [T]
 }
 
 /// [`FrontNumbers::forward`] of whole subtrees.
-fn forward<T: Scalar>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T>)], values: &[T]) {
+fn forward<T: Scalar, const W: usize>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T, W>)], values: &[T]) {
     parts.par_iter_mut().for_each(|(t, part)| {
         let front = &tree.fronts[*t];
         if front.work <= SOLVED_ALONE {
@@ -289,28 +332,41 @@ fn forward<T: Scalar>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T>)], value
 }
 
 /// [`FrontNumbers::backward`] of whole subtrees.
-fn backward<T: Scalar>(tree: &Tree, parts: &mut [(usize, FrontNumbers<T>)], values: &[T]) {
+fn backward<T: Scalar, const W: usize, const L: usize>(
+    tree: &Tree,
+    parts: &mut [(usize, FrontNumbers<T, W>)],
+    values: &[T],
+) {
     parts.par_iter_mut().for_each(|(t, part)| {
         let front = &tree.fronts[*t];
         if front.work <= SOLVED_ALONE {
-            return (front.first..=*t).rev().for_each(|f| part.backward(tree, f, front.first, values));
+            return (front.first..=*t).rev().for_each(|f| part.backward::<L>(tree, f, front.first, values));
         }
-        part.backward(tree, *t, front.first, values);
-        backward(tree, &mut part.split(tree, &front.children), values);
+        part.backward::<L>(tree, *t, front.first, values);
+        backward::<T, W, L>(tree, &mut part.split(tree, &front.children), values);
     });
 }
 
-/// Scalar product, in a fixed order that lets a core work on several sums at once.
-fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
-    let mut sums = [T::from_f64(0.0); LANES];
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    for (a, b) in a.iter().zip(b) {
-        for k in 0..LANES {
-            sums[k] += a[k] * b[k];
+/// Scalar products with `W` vectors, in a fixed order that lets a core work on several sums at once.
+#[inline]
+fn dot<T: Scalar, const W: usize, const L: usize>(a: &[T], b: &[[T; W]]) -> [T; W] {
+    let mut sums = [[T::from_f64(0.0); W]; L];
+    let b = &b[..a.len()];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<L>(), b.as_chunks::<L>());
+    let mut add = |lane: usize, a: T, b: &[T; W]| {
+        for k in 0..W {
+            sums[lane][k] += a * b[k];
         }
+    };
+    for (a, b) in a.iter().zip(b) {
+        (0..L).for_each(|lane| add(lane, a[lane], &b[lane]));
     }
-    for (sum, (a, b)) in sums.iter_mut().zip(a_rest.iter().zip(b_rest)) {
-        *sum += *a * *b;
+    for (lane, (a, b)) in a_rest.iter().zip(b_rest).enumerate() {
+        add(lane, *a, b);
     }
-    sums.into_iter().fold(T::from_f64(0.0), |sum, part| sum + part)
+    let mut whole = [T::from_f64(0.0); W];
+    for part in &sums {
+        self::add(&mut whole, part);
+    }
+    whole
 }

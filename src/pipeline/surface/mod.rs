@@ -13,6 +13,7 @@ mod gores;
 mod mend;
 mod parts;
 mod report;
+mod rows;
 mod sheet;
 mod simplify;
 mod size;

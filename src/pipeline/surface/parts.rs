@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::rows::Rows;
 use super::sheet::CutFaces;
 use super::size::Space;
 use crate::flatten::{FlattenError, Solid, orient};
@@ -23,7 +24,7 @@ pub(super) struct SurfacePart {
     /// The face of the file that each is of.
     origins: Vec<u32>,
     /// Corners of each of these, as vertices of the part.
-    pub(super) corners: Vec<Vec<u32>>,
+    pub(super) corners: Rows,
     /// Edges of the surface that are inside a polygon of the file.
     pub(super) diagonals: Solid,
     /// In metres, its triangles turned round: a flat piece shows the side that faces outward in space.
@@ -36,7 +37,7 @@ pub(super) struct SurfacePart {
 #[derive(Clone)]
 pub(super) struct Nodes {
     /// Of every face's corners.
-    of_face: Vec<Vec<u32>>,
+    of_face: Rows,
     /// The file's vertex of every node.
     vertex: Vec<u32>,
 }
@@ -51,7 +52,7 @@ impl Nodes {
     /// With `texture`, a vertex that has several texture positions is several nodes. `same` has the vertex that stands
     /// for every vertex.
     pub(super) fn new(faces: &ObjFaces, texture: bool, same: &[u32]) -> Self {
-        let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
+        let (mut of_face, mut vertex) = (Rows::new(), Vec::new());
         // The nodes of a vertex, which are few: the last made, and from each to the one before.
         let mut last = vec![NONE; faces.vertices.len()];
         let mut made: Vec<(NodeKey, u32)> = Vec::new();
@@ -73,7 +74,6 @@ impl Nodes {
                 }
                 node
             });
-            let nodes = nodes.collect();
             of_face.push(nodes);
         }
         Self { of_face, vertex }
@@ -82,7 +82,7 @@ impl Nodes {
     /// Edges of nodes, smaller first, that lie on one of the file's edges.
     pub(super) fn edges_on(&self, of_file: &HashSet<[u32; 2]>) -> HashSet<[u32; 2]> {
         let on = |ends: &[u32; 2]| of_file.contains(&sorted_pair(ends.map(|n| self.vertex[n as usize])));
-        self.of_face.iter().flat_map(|face| sides(face)).filter(on).collect()
+        self.of_face.iter().flat_map(sides).filter(on).collect()
     }
 }
 
@@ -185,7 +185,8 @@ impl SurfacePart {
         all.dedup_by_key(|(_, fan)| *fan);
         all.iter().enumerate().for_each(|(k, &(_, fan))| local[fan as usize] = k as u32);
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
-        let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
+        let mut corners = Rows::new();
+        own.iter().for_each(|&f| corners.push(number(f).map(|fan| local[fan as usize])));
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
         let positions: Vec<Vec3> = vertices.iter().map(|&v| space.place(faces.vertices[v as usize])).collect();
         let of_polygon: Vec<Vec<[u32; 3]>> = corners.iter().map(|polygon| triangles_of(&positions, polygon)).collect();
@@ -224,7 +225,7 @@ impl SurfacePart {
         self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);
         let mut done = 0;
         // All faces at once: looked up one by one, each would be counted from the first.
-        let turned = self.origins.iter().zip(&self.corners).filter(|(_, corners)| {
+        let turned = self.origins.iter().zip(self.corners.iter()).filter(|(_, corners)| {
             let own = done..done + corners.len() - 2;
             done = own.end;
             is_turned[own].contains(&true)

@@ -25,6 +25,8 @@ const LARGE_SHEET: [f64; 2] = [250.0, 400.0];
 const HARDLY_CURVED: f64 = 0.97;
 /// A unit in which the surface would be between 4 cm and 4 m large, as pieces of garments are, leaves a doubt.
 const DOUBTFUL: [f64; 2] = [0.04, 4.0];
+/// So do metres up to this size: sails and tents.
+const LARGEST: f64 = 30.0;
 /// An extent below this share of the largest is not said.
 const SAID: f64 = 0.02;
 
@@ -74,7 +76,8 @@ pub(super) fn guessed(faces: &ObjFaces) -> (LengthUnit, String) {
     };
     let mut said = format!("{} assumed, from the size of the surface: {}", unit.symbol(), shown(&extents, unit));
     for other in [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre] {
-        if other != unit && (DOUBTFUL[0]..DOUBTFUL[1]).contains(&(size * other.metres())) {
+        let most = if other == LengthUnit::Metre { LARGEST } else { DOUBTFUL[1] };
+        if other != unit && (DOUBTFUL[0]..most).contains(&(size * other.metres())) {
             said += &format!(", or {} in {}", shown(&extents, other), other.symbol());
         }
     }
@@ -171,6 +174,8 @@ mod tests {
             ((240.0, 150.0, 10.0), LengthUnit::Millimetre, ": 240 × 150 mm, or 2.4 × 1.5 m in cm;"),
             ((120.0, 60.0, 1.5), LengthUnit::Centimetre, ": 1.2 × 0.6 m, or 120 × 60 mm in mm;"),
             ((9.6, 4.2, 0.6), LengthUnit::Metre, ": 9.6 × 4.2 m, or 96 × 42 mm in cm;"),
+            // A large sail, or a doll's shoe.
+            ((14.0, 6.0, 0.5), LengthUnit::Centimetre, ": 140 × 60 mm, or 14.0 × 6.0 m in m;"),
             // A cloak in a coarse mesh.
             ((310.0, 124.0, 31.0), LengthUnit::Centimetre, ": 3.1 × 1.2 m, or 310 × 124 mm in mm;"),
             // No doubt.
