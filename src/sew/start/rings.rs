@@ -19,9 +19,9 @@ const LOWEST: f64 = 0.06;
 /// A limb's ring lies at least so far along its axis, metres, and at most so far beyond its end.
 pub(super) const FIRST: f64 = 0.02;
 const BEYOND: f64 = 0.08;
-/// A sleeve's ring lies nearer than its sleeve reaches by this share of the way from the neck. Drawn taut the cloth goes
-/// straight and below the shoulder, which then grows through it: two shirts started so with 233 and 518 triangles
-/// through the body, and with this start with 52 and none.
+/// A sleeve's ring lies nearer than its sleeve reaches by this share of the way from the neck. Cloth that is drawn taut
+/// goes straight and below the shoulder, which then grows through it: of two shirts 233 and 518 triangles started
+/// through the body, and 52 and none with this slack.
 const SLACK: f64 = 0.04;
 /// The top of a garment that is placed by the waist lies no further from the waist than this, metres.
 const AT_WAIST: f64 = 0.05;

@@ -11,8 +11,8 @@ use crate::linear::{Memory, dot};
 
 /// Rounds at most.
 const ROUNDS: usize = 40;
-/// Steps of short rounds and of long ones. With 12 two drafted shirts never came unfolded; with 60 they do in five rounds.
-/// Long rounds at once lead garments elsewhere that short ones unfold: a wrap dress took 79 s to sew for 28.
+/// Steps of short rounds and of long ones. With 12 two drafted shirts never came unfolded; with 60 they do in five
+/// rounds. Long rounds at once lead garments elsewhere that short ones unfold: a wrap dress took 79 s to sew for 28.
 const SHORT: usize = 12;
 const LONG: usize = 60;
 /// After so many long rounds in which not fewer triangles are turned over than before, none will come back: of fourteen
@@ -150,8 +150,9 @@ pub(super) fn unfold(directions: &mut Vec<Vec3>, facets: &[Facet], film: &Film, 
         in_vain = if turned < fewest { 0 } else { in_vain + 1 };
         fewest = fewest.min(turned);
         let is_settled = least > 0.0 && value > last * (1.0 - SETTLED);
-        let is_stuck = rounds == Rounds::Long && turned > 0 && in_vain >= PATIENCE;
-        if is_settled || is_stuck {
+        // The same value again: no step was found, and the next round would be the same.
+        let is_stuck = value == last || rounds == Rounds::Long && in_vain >= PATIENCE;
+        if is_settled || turned > 0 && is_stuck {
             break;
         }
         last = value;
