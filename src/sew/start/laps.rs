@@ -159,7 +159,7 @@ impl RimPair {
         let whole = [0, 1].map(|side| rim(garment, mesh, edges[side]));
         let lengths = [0, 1].map(|side| whole[side].last().map_or(0.0, |r| r.0));
         let mut closed = [0, 1].map(|side| closed(&spots[side], lengths[side]));
-        // The end of a strap closes no more of a wide edge than its own width.
+        // The end of a strap closes as much of a wide edge as it is wide.
         let wide = wider(closed).filter(|_| tacks.len() == 1);
         if let Some((side, width)) = wide {
             closed[side] = about(spots[side][0], width, lengths[side]);
@@ -399,13 +399,14 @@ fn closed(spots: &[f64], length: f64) -> [f64; 2] {
     [if low <= beyond { 0.0 } else { low }, if length - high <= beyond { length } else { high }]
 }
 
-/// The side whose closed stretch is wider than the other one's, and the width of that, metres. `None` if the other has
-/// none, or both are as wide.
+/// The side that is a wide edge, and the width of the other one, metres: what it closes is wider than that, or only a
+/// point far from its ends. `None` where both are as wide, or points.
 fn wider(closed: [[f64; 2]; 2]) -> Option<(usize, f64)> {
     let widths = closed.map(|[from, to]| to - from);
-    let side = usize::from(widths[1] > widths[0]);
+    let is_point = widths.map(|width| width <= 0.0);
+    let side = if is_point[0] != is_point[1] { usize::from(is_point[1]) } else { usize::from(widths[1] > widths[0]) };
     let other = widths[1 - side];
-    (other > 0.0 && widths[side] > other).then_some((side, other))
+    (other > 0.0 && widths[side] != other).then_some((side, other))
 }
 
 /// The stretch of an edge of so many metres that is `width` wide and has its middle nearest to a spot.
@@ -466,6 +467,17 @@ mod tests {
         assert_eq!(nearest_between(&rim, [0.065, 0.105]), [rim[1], rim[2]]);
         assert_eq!(nearest_between(&rim, [0.0, 1.0]), rim);
         assert_eq!(nearest_between(&[], [0.0, 1.0]), []);
+    }
+
+    #[test]
+    fn a_strap_is_narrower_than_the_edge_that_it_ends_on() {
+        assert_eq!(wider([[0.0, 0.05], [0.0, 0.2]]), Some((1, 0.05)));
+        assert_eq!(wider([[0.0, 0.2], [0.0, 0.05]]), Some((0, 0.05)));
+        // A button in the middle of a long edge.
+        assert_eq!(wider([[0.0, 0.05], [0.7, 0.7]]), Some((1, 0.05)));
+        assert_eq!(wider([[0.7, 0.7], [0.0, 0.05]]), Some((0, 0.05)));
+        assert_eq!(wider([[0.7, 0.7], [0.3, 0.3]]), None);
+        assert_eq!(wider([[0.0, 0.25], [0.25, 0.5]]), None);
     }
 
     #[test]
