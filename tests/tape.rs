@@ -116,6 +116,11 @@ const BRIDGED: f64 = 30.0;
 /// Rays of a tape that finds the innermost layer.
 const RAYS: u32 = 3600;
 
+/// The angle of a ray, radians: none runs through a vertex.
+fn angle(k: u32) -> f64 {
+    TAU * (f64::from(k) + 0.37) / f64::from(RAYS)
+}
+
 /// The strand's cloth once round the middle. `None` if it does not go round it.
 ///
 /// A ray from the middle meets a single layer an odd number of times, be it folded or not: then the strand's length
@@ -123,7 +128,6 @@ const RAYS: u32 = 3600;
 fn once_round(strand: &[[Flat; 2]]) -> Option<f64> {
     /// Share of rays that may slip through the gaps of seams.
     const SLIP: f64 = 0.015;
-    let angle = |k: u32| TAU * (f64::from(k) + 0.37) / f64::from(RAYS);
     let rays: Vec<Vec<f64>> = (0..RAYS).map(|k| met(strand, angle(k))).collect();
     let share = |of: &dyn Fn(&Vec<f64>) -> bool| rays.iter().filter(|ray| of(ray)).count() as f64 / f64::from(RAYS);
     if share(&|ray| ray.is_empty()) > SLIP {
@@ -141,7 +145,7 @@ fn once_round(strand: &[[Flat; 2]]) -> Option<f64> {
 
 /// How far the cloth of a strand is open round the middle, mm: at a hem a level tape runs off it.
 fn open(strand: &[[Flat; 2]]) -> f64 {
-    let rays = (0..RAYS).map(|k| met(strand, TAU * (f64::from(k) + 0.37) / f64::from(RAYS)));
+    let rays = (0..RAYS).map(|k| met(strand, angle(k)));
     let met: Vec<f64> = rays.filter_map(|ray| ray.first().copied()).collect();
     let missed = 1.0 - met.len() as f64 / f64::from(RAYS);
     missed * TAU * met.iter().sum::<f64>() / met.len().max(1) as f64
@@ -233,22 +237,22 @@ fn check(garment: &str, mannequin: &str, measures: &[(&str, f64)]) {
         // Of the trunk the cloth is measured below the armholes.
         let level = Vec3::new(mark.x, number("height"), mark.z);
         let own = strands(&Plane::new(level, axis).cut(&cloth));
+        let bare = strands(&Plane::new(mark, axis).cut(&skin));
+        let round = bare.iter().find(|s| once_round(s).is_some()).expect("skin round the part");
+        let body_taped = hull(&round.iter().flatten().copied().collect::<Vec<_>>());
+        assert!((number("body") - body_taped).abs() < CLOSE, "{garment}, {name}: {body_taped} mm, said {row}");
         let Some(taped) = own.iter().filter_map(|s| once_round(s)).reduce(f64::min) else {
             let open = own.iter().filter(|s| !s.is_empty()).map(|s| open(s)).fold(f64::INFINITY, f64::min);
             println!("{garment} {measures:?} {name}: open by {open:.1} mm");
             assert!(open < BRIDGED, "{garment}, {name}: open by {open} mm, said {row}");
             continue;
         };
-        let bare = strands(&Plane::new(mark, axis).cut(&skin));
-        let round = bare.iter().find(|s| once_round(s).is_some()).expect("skin round the part");
-        let body_taped = hull(&round.iter().flatten().copied().collect::<Vec<_>>());
         println!(
             "{garment} {measures:?} {name}: garment {:.2}, taped {taped:.2}; body {:.2}, taped {body_taped:.2}",
             number("garment"),
             number("body")
         );
         assert!((number("garment") - taped).abs() < CLOSE, "{garment}, {name}: the cloth is {taped} mm, said {row}");
-        assert!((number("body") - body_taped).abs() < CLOSE, "{garment}, {name}: {body_taped} mm, said {row}");
         assert!((number("ease") - (taped - body_taped)).abs() < 2.0 * CLOSE, "{garment}, {name}: {row}");
     }
 }

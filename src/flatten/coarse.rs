@@ -79,7 +79,7 @@ struct GridSquare {
     inside: Vec<u32>,
 }
 
-/// What the shift of a place is made of.
+/// The nodes that a place moves with.
 struct Place {
     nodes: [u32; NODES],
     /// The share that each node's shift has in it.

@@ -26,15 +26,15 @@ const LEAST: f64 = 0.2;
 /// the warp is stretched by 1/(|b| sin φ) and the weft by 1/(|a| sin φ), where φ is the angle from a to b, and the
 /// tangent of the shear is cot φ.
 struct Woven {
-    /// p and q.
+    /// The directions p and q, across the warp and across the weft.
     across: [Vec2; 2],
-    /// a and b.
+    /// The vectors a and b that J is made of with p and q.
     images: [Vec2; 2],
-    /// |a|² and |b|².
+    /// Squares of the lengths of a and b.
     squares: [f64; 2],
-    /// ln t of warp and weft.
+    /// Strains of warp and weft, as logarithms of their stretches t.
     strains: [f64; 2],
-    /// cot φ.
+    /// Tangent of the shear, which is cot φ.
     tangent: f64,
 }
 

@@ -182,9 +182,9 @@ pub(super) fn solve<T: Scalar>(tree: &Tree, values: &[T], x: &mut [T]) {
         rest = after;
         match taken {
             1 => solve_together::<T, 1, LANES>(tree, values, now),
-            2 => solve_together::<T, 2, 4>(tree, values, now),
-            3 | 4 => solve_together::<T, 4, 2>(tree, values, now),
-            _ => solve_together::<T, TOGETHER, 1>(tree, values, now),
+            2 => solve_together::<T, 2, { LANES / 2 }>(tree, values, now),
+            3 | 4 => solve_together::<T, 4, { LANES / 4 }>(tree, values, now),
+            _ => solve_together::<T, TOGETHER, { LANES / TOGETHER }>(tree, values, now),
         }
     }
 }

@@ -62,7 +62,8 @@ pub(super) struct Star {
     pub(super) ways: Vec<WayOut>,
 }
 
-/// Directions from a point, before they are unfolded.
+/// Directions from a point.
+#[derive(Clone, Debug)]
 struct Sight {
     from: Vec3,
     /// The mouths.
@@ -85,9 +86,9 @@ impl GluedPart<'_> {
         let roomiest = sights.first()?.from;
         let mut tried: Vec<Sight> = sights.into_iter().take(TRIES).collect();
         tried.iter_mut().for_each(|sight| self.spread_out(&mut sight.directions));
-        let found = [Rounds::Short, Rounds::Long].into_iter().find_map(|rounds| {
-            tried.iter().find_map(|sight| self.unfolded(sight, &sight.directions, rounds, &middles))
-        })?;
+        let found = [Rounds::Short, Rounds::Long]
+            .into_iter()
+            .find_map(|rounds| tried.iter().find_map(|sight| self.unfolded(sight.clone(), rounds, &middles)))?;
         let Sight { from, circles, directions, .. } = self.led_to(roomiest, found, &middles);
         let ways = ways_out(&self.mouths, from, axes);
         let mut nodes = self.at_reach(&directions, &circles, &rims)?;
@@ -96,11 +97,9 @@ impl GluedPart<'_> {
         Some(Star { nodes, ways })
     }
 
-    /// A sight whose film is unfolded, from these directions. `None` where that does not succeed.
-    fn unfolded(&self, sight: &Sight, directions: &[Vec3], rounds: Rounds, middles: &Film) -> Option<Sight> {
-        let mut directions = directions.to_vec();
-        let is_unfolded = unfold(&mut directions, &self.facets(&sight.circles), middles, rounds);
-        is_unfolded.then(|| Sight { directions, circles: sight.circles.clone(), ..*sight })
+    /// A sight whose directions are unfolded. `None` where that does not succeed.
+    fn unfolded(&self, mut sight: Sight, rounds: Rounds, middles: &Film) -> Option<Sight> {
+        unfold(&mut sight.directions, &self.facets(&sight.circles), middles, rounds).then_some(sight)
     }
 
     /// Leads the point of an unfolded sight from which mouths overlap towards a point `to` from which they are apart:
@@ -114,8 +113,8 @@ impl GluedPart<'_> {
             let circles = circles(&self.mouths, from);
             let mut directions = sight.directions.clone();
             self.point_at(&circles, &mut directions);
-            let ahead = Sight { from, circles, directions: Vec::new(), room: room(&self.mouths, from), ..sight };
-            match self.unfolded(&ahead, &directions, Rounds::Long, middles) {
+            let ahead = Sight { from, circles, directions, room: room(&self.mouths, from), ..sight };
+            match self.unfolded(ahead, Rounds::Long, middles) {
                 Some(unfolded) => sight = unfolded,
                 None => step /= 2.0,
             }

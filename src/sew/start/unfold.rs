@@ -43,6 +43,16 @@ pub(super) enum Rounds {
     Long,
 }
 
+impl Rounds {
+    /// Steps in each.
+    fn steps(self) -> usize {
+        match self {
+            Self::Short => SHORT,
+            Self::Long => LONG,
+        }
+    }
+}
+
 /// A triangle as it is to lie on the unit sphere.
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
@@ -144,7 +154,7 @@ pub(super) fn unfold(directions: &mut Vec<Vec3>, facets: &[Facet], film: &Film, 
     for _ in 0..ROUNDS {
         let least = energy.least(directions);
         energy.steepness = (BY_TURNED * least.min(0.0)).hypot(STEEPEST);
-        let value = descend(&energy, directions, film, if rounds == Rounds::Short { SHORT } else { LONG });
+        let value = descend(&energy, directions, film, rounds.steps());
         directions.iter_mut().for_each(|d| *d = d.normalize());
         let turned = energy.turned(directions);
         in_vain = if turned < fewest { 0 } else { in_vain + 1 };
