@@ -169,6 +169,37 @@ fn straps_start_over_the_shoulders() {
     }
 }
 
+/// Straps from the waist at the back to a bib are as near to their arm all along. They start over the shoulders, their
+/// right side out all the way, and the waistband inside the arms.
+#[test]
+fn long_straps_start_over_the_shoulders_with_their_right_side_out() {
+    let dungarees = case("dungarees.yaml").into_iter();
+    for job in dungarees.chain([job("tests/data/pinafore.yaml")]) {
+        let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+        let straps: Vec<_> = job.mesh.pieces.iter().filter(|piece| piece.name.starts_with("strap")).collect();
+        assert_eq!(straps.len(), 2, "straps");
+        for strap in straps {
+            let highest = strap.particles.clone().map(|p| x[p]).max_by(|a, b| a.y.total_cmp(&b.y)).expect("particles");
+            assert!(highest.x.abs() < 0.175 && highest.y > 1.33, "{}: {highest:?}", strap.name);
+            let wrong = job.mesh.triangles[strap.triangles.clone()].iter().filter(|t| {
+                let [a, b, c] = t.map(|p| x[p as usize]);
+                let near = job.collider.nearest((a + b + c) / 3.0, 0.3).expect("the body");
+                (c - a).cross(&(b - a)).dot(&near.normal) < 0.0
+            });
+            let share = wrong.count() as f64 / strap.triangles.len() as f64;
+            assert!(share < 0.1, "{}: {share} of it lies wrong side out", strap.name);
+        }
+        let inside = x.iter().filter(|p| job.collider.nearest(**p, 0.2).is_some_and(|n| n.distance < 0.0)).count();
+        assert_eq!(inside, 0, "particles that start in the body");
+    }
+}
+
+/// A pinafore whose straps are buttoned to the waistband at the back.
+#[test]
+fn a_pinafore_is_sewn() {
+    is_sewn_round(&job("tests/data/pinafore.yaml"), &["left arm", "neck", "right arm", "torso"]);
+}
+
 /// Two buttons of one lap may stand in one closure or in two.
 #[test]
 fn closures_that_hold_one_lap_together_count_as_one() {

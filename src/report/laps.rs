@@ -123,13 +123,12 @@ impl<'a> PlacedRims<'a> {
 
     /// The same of the inner edge (side 0) or the outer one.
     fn turned_edge(&self, lap: &HeldLap, side: usize) -> Option<Turned> {
-        let spots = lap.fastenings.iter().map(|f| f.ends.iter().find(|end| end.edge == lap.edges[side]));
-        let corners: Vec<Option<[usize; 2]>> =
-            spots.map(|spot| corner(self.mesh, self.welded, &self.loops, spot?)).collect();
-        let [rim, start] = corners.iter().flatten().copied().next()?;
-        let chain = self.chain(&self.loops[rim], start);
+        let corners = self.corners(lap, side);
+        let (rim, chain) = self.along(&corners)?;
+        let (other_rim, other) = self.along(&self.corners(lap, 1 - side))?;
+        let other = self.pieces(&self.loops[other_rim], &other);
         let reach = lap.fastenings.iter().map(|f| f.reach).fold(0.0, f64::max);
-        let places = self.places(&self.loops[rim], &chain, BEYOND.min(0.5 * reach));
+        let places = self.places(&self.loops[rim], &chain, &other, BEYOND.min(0.5 * reach));
         let run = self.longest(&self.loops[rim], &chain, &places, |layer| (layer.at > 0.0) == (side == 1))?;
         // Points of the closure, by their places in the chain.
         let points = corners.iter().zip(&lap.fastenings).filter_map(|(corner, fastening)| {
@@ -143,14 +142,36 @@ impl<'a> PlacedRims<'a> {
         Some(Turned { length: run.length * MM, at: format!("{place}, '{over}' lies over '{under}'") })
     }
 
+    /// The rim and its corner at which each closure's point holds an edge of a lap.
+    fn corners(&self, lap: &HeldLap, side: usize) -> Vec<Option<[usize; 2]>> {
+        let spots = lap.fastenings.iter().map(|f| f.ends.iter().find(|end| end.edge == lap.edges[side]));
+        spots.map(|spot| corner(self.mesh, self.welded, &self.loops, spot?)).collect()
+    }
+
+    /// A rim through the first of the corners, and its part that goes straight on there, as indices into it.
+    fn along(&self, corners: &[Option<[usize; 2]>]) -> Option<(usize, Vec<usize>)> {
+        let [rim, start] = corners.iter().flatten().copied().next()?;
+        Some((rim, self.chain(&self.loops[rim], start)))
+    }
+
+    /// The pieces along a part of a rim.
+    fn pieces(&self, ring: &[u32], chain: &[usize]) -> HashSet<usize> {
+        let triangles = chain.iter().flat_map(|&k| &self.round[ring[k] as usize]);
+        triangles.filter_map(|&t| self.piece(t)).collect()
+    }
+
+    /// The piece that a triangle is of.
+    fn piece(&self, triangle: u32) -> Option<usize> {
+        self.mesh.piece_of(self.mesh.triangles[triangle as usize][0])
+    }
+
     fn vertex(&self, rim: usize, k: usize) -> u32 {
         self.loops[rim][k]
     }
 
     /// The name of a triangle's piece.
     fn name(&self, triangle: u32) -> &str {
-        let particle = self.mesh.triangles[triangle as usize][0];
-        self.mesh.piece_of(particle).map_or("", |piece| &self.mesh.pieces[piece].name)
+        self.piece(triangle).map_or("", |piece| &self.mesh.pieces[piece].name)
     }
 
     /// The part of a rim through its corner `start` that goes straight on, as indices into the rim.
@@ -174,9 +195,11 @@ impl<'a> PlacedRims<'a> {
         back.into_iter().rev().chain([start]).chain(forth).collect()
     }
 
-    /// Places where another layer lies before or behind the cloth, searched `beyond` the rim.
-    fn places(&self, ring: &[u32], chain: &[usize], beyond: f64) -> Vec<LapPlace> {
+    /// Places where a layer of the `other` edge's pieces lies before or behind the cloth, searched `beyond` the rim:
+    /// cloth that only crosses the lap, as the other one of two crossed straps, has no order in it.
+    fn places(&self, ring: &[u32], chain: &[usize], other: &HashSet<usize>, beyond: f64) -> Vec<LapPlace> {
         let n = ring.len();
+        let is_other = |l: &Layer| self.piece(l.triangle).is_some_and(|piece| other.contains(&piece));
         let point = |k: usize| self.welded.surface.vertices[ring[k % n] as usize];
         let place = |(at, &k): (usize, &usize)| {
             let normal = self.normal(ring[k])?;
@@ -186,7 +209,7 @@ impl<'a> PlacedRims<'a> {
             let own = self.neighbours(ring[k]);
             let alike = |from: Vec3| {
                 let layers = self.layers.near(from, normal, NEAR, |t| own.contains(&t)).into_iter();
-                layers.filter(|l| l.facing > ALIKE).min_by(|a, b| a.at.abs().total_cmp(&b.at.abs()))
+                layers.filter(|l| l.facing > ALIKE && is_other(l)).min_by(|a, b| a.at.abs().total_cmp(&b.at.abs()))
             };
             // On which side is asked at the rim: beyond it the body bends away by more than layers are apart.
             alike(point(k) + out * beyond)?;

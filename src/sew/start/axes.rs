@@ -3,6 +3,8 @@
 //! A garment is inflated round these first; the cylinders then grow to the body's own size. A point in two of them
 //! (at a shoulder, in the crotch) is led out of one and then of the other.
 
+use nalgebra::Rotation3;
+
 use crate::geometry::Vec3;
 use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
@@ -65,7 +67,12 @@ impl Axis {
         if kept.last().is_some_and(|k| k.center != last.center) {
             kept.push(last);
         }
-        let disks: Vec<Disk> = kept.into_iter().map(disk).collect();
+        let landmarks = part.landmarks.iter().map(|(name, at)| (name.to_lowercase(), *at)).collect();
+        Self::new(part.kind, kept.into_iter().map(disk).collect(), landmarks)
+    }
+
+    /// Of disks, if there are two at least.
+    fn new(kind: PartKind, disks: Vec<Disk>, landmarks: Vec<(String, Vec3)>) -> Option<Self> {
         let mut along = vec![0.0];
         for pair in disks.windows(2) {
             along.push(along.last().copied().unwrap_or(0.0) + (pair[1].center - pair[0].center).norm());
@@ -73,8 +80,19 @@ impl Axis {
         let reach = disks.iter().map(|d| d.half[0].max(d.half[1])).fold(0.0, f64::max);
         let low = disks.iter().fold(Vec3::repeat(f64::INFINITY), |low, d| low.inf(&d.center)).add_scalar(-reach);
         let high = disks.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, d| high.sup(&d.center)).add_scalar(reach);
-        let landmarks = part.landmarks.iter().map(|(name, at)| (name.to_lowercase(), *at)).collect();
-        (disks.len() > 1).then_some(Self { kind: part.kind, disks, along, landmarks, low, high })
+        (disks.len() > 1).then_some(Self { kind, disks, along, landmarks, low, high })
+    }
+
+    /// It turned about its beginning by this share of the way to straight sideways.
+    fn raised(&self, share: f64) -> Self {
+        let joint = self.disks[0].center;
+        let reach = self.disks[self.disks.len() - 1].center - joint;
+        let sideways = Vec3::x() * reach.x.signum();
+        let turn = Rotation3::scaled_rotation_between(&reach, &sideways, share).unwrap_or_else(Rotation3::identity);
+        let place = |p: Vec3| joint + turn * (p - joint);
+        let turned = |disk: &Disk| Disk { center: place(disk.center), frame: disk.frame.map(|v| turn * v), ..*disk };
+        let landmarks = self.landmarks.iter().map(|(name, at)| (name.clone(), place(*at))).collect();
+        Self::new(self.kind, self.disks.iter().map(turned).collect(), landmarks).unwrap_or_else(|| self.clone())
     }
 
     /// Its length, metres.
@@ -210,6 +228,12 @@ impl Axes {
         self.axes.iter().find(|axis| axis.kind == kind)
     }
 
+    /// The same body with its arms raised by this share of the way to straight sideways.
+    pub(super) fn with_arms_raised(&self, share: f64) -> Self {
+        let raised = |axis: &Axis| if axis.kind.is_arm() { axis.raised(share) } else { axis.clone() };
+        Self { axes: self.axes.iter().map(raised).collect() }
+    }
+
     /// Where a point is led to that lies within the axes at `scale` of their thickness, plus `gap` metres; the point
     /// itself outside.
     pub(super) fn outside(&self, p: Vec3, scale: f64, gap: f64) -> Vec3 {
@@ -241,6 +265,28 @@ mod tests {
             assert!((axis.station(s).center - Vec3::new(0.0, s, 0.0)).norm() < 1e-12, "{s}");
             assert!((axis.nearest(Vec3::new(0.3, s, 0.1)) - s.clamp(0.0, 1.0)).abs() < 1e-12, "{s}");
         }
+    }
+
+    #[test]
+    fn an_arm_is_raised_about_its_beginning() {
+        let section = |k: u32| Section {
+            center: Vec3::new(0.2, 1.4, 0.0) + Vec3::new(0.6, -0.8, 0.0) * (0.1 * f64::from(k)),
+            axis: Vec3::new(0.6, -0.8, 0.0),
+            half_width: 0.05,
+            half_depth: 0.04,
+            girth: 0.28,
+        };
+        let part = |kind| BodyPart { kind, sections: (0..=6).map(section).collect(), landmarks: Vec::new() };
+        let body = Axes::of_parts(&[part(PartKind::LeftArm), part(PartKind::LeftLeg)]);
+        let end = |body: &Axes, kind| body.part(kind).map(|axis| axis.station(axis.length()).center).expect("an axis");
+        let raised = body.with_arms_raised(1.0);
+        assert!((end(&raised, PartKind::LeftArm) - Vec3::new(0.8, 1.4, 0.0)).norm() < 1e-12);
+        assert_eq!(end(&raised, PartKind::LeftLeg), end(&body, PartKind::LeftLeg), "legs stay");
+        let half = body.with_arms_raised(0.5);
+        let way = end(&half, PartKind::LeftArm) - Vec3::new(0.2, 1.4, 0.0);
+        assert!((way.norm() - 0.6).abs() < 1e-12);
+        assert!((way.y.atan2(way.x) - 0.5 * (-0.8f64).atan2(0.6)).abs() < 1e-12);
+        assert!((end(&body.with_arms_raised(0.0), PartKind::LeftArm) - Vec3::new(0.56, 0.92, 0.0)).norm() < 1e-12);
     }
 
     #[test]

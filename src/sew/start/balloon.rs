@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use super::axes::Axes;
+use super::facing;
 use super::ribbon::Ribbons;
 use super::rings::{ABOVE_NECK, Neckline};
 use super::star::GluedPart;
@@ -103,6 +104,8 @@ pub(super) struct Balloon<'a> {
     pub(super) held: Vec<Held>,
     /// The ways of the body through it.
     pub(super) ways: &'a [WayOut],
+    /// Whether the arms are raised sideways while it is put on, and come down as the body grows.
+    pub(super) raises_arms: bool,
     /// Whether it hangs from the shoulders: nothing of it is held where it settles, and its weight draws straps taut.
     pub(super) hangs: bool,
     /// Its neckline, if it has one on the shoulders.
@@ -128,6 +131,8 @@ struct Motion<'a> {
     velocity: Vec<Vec3>,
     /// Area of the triangles round every node at rest, twice, metres².
     area: Vec<f64>,
+    /// For every triangle 1 where it is of a strap, 0 where it is inflated fully.
+    strap: Vec<f64>,
     /// Nodes within [`NEIGHBOURS`] edges of every node, sorted.
     near: Vec<Vec<u32>>,
     /// Distance that layers are drawn apart to, metres.
@@ -140,18 +145,21 @@ impl Balloon<'_> {
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut motion = Motion::new(self, x);
         let held = |pressure: f64| Load { pressure, weight: Vec3::zeros(), is_held: true };
+        let pose = |raised: f64| if self.raises_arms { axes.with_arms_raised(raised) } else { axes.clone() };
+        let thin = pose(1.0);
         for _ in 0..INFLATE {
-            motion.step(held(1.0), |p| axes.outside(p, SMALLEST, GAP));
+            motion.step(held(1.0), &thin, |p| thin.outside(p, SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
-            motion.step(held(1.0 - share), |p| axes.outside(p, scale, GAP));
+            let growing = pose(1.0 - share);
+            motion.step(held(1.0 - share), &growing, |p| growing.outside(p, scale, GAP));
         }
         let hung = Load { pressure: 0.0, weight: -Vec3::y() * WEIGHT, is_held: false };
         let settling = if self.hangs { hung } else { held(0.0) };
         for _ in 0..SETTLE {
-            motion.step(settling, |p| p + way_out(body, p, GAP, LOOK));
+            motion.step(settling, axes, |p| p + way_out(body, p, GAP, LOOK));
         }
         for _ in 0..CLEAR {
             if !motion.clear_middles(body) {
@@ -208,9 +216,12 @@ impl<'a> Motion<'a> {
         let detector = balloon.detector(&ribbons, x.len());
         let near = neighbours(x.len(), &balloon.part.edges);
         let (area, apart) = (balloon.areas(x.len()), APART * balloon.mean_edge());
+        let part = balloon.part;
+        let width = |t: &[u32; 3]| t.map(|n| part.over_shoulder[n as usize]).into_iter().fold(f64::INFINITY, f64::min);
+        let strap = part.triangles.iter().map(|t| 1.0 - inflated(width(t))).collect();
         let mut x = x.to_vec();
         x.extend(ribbons.nodes);
-        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, near, apart, detector }
+        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, strap, near, apart, detector }
     }
 
     /// Number of nodes of the garment.
@@ -219,10 +230,13 @@ impl<'a> Motion<'a> {
     }
 
     /// One step under a load, clear of a body that leads points `outside` it.
-    fn step(&mut self, load: Load, outside: impl Fn(Vec3) -> Vec3) {
+    fn step(&mut self, load: Load, axes: &Axes, outside: impl Fn(Vec3) -> Vec3) {
         let push = self.pushed();
+        let turn = facing::turned(&self.x[..self.count()], &self.balloon.part.triangles, &self.strap, axes);
         let mut p: Vec<Vec3> = self.x.iter().zip(&self.velocity).map(|(x, v)| x + v).collect();
-        p.iter_mut().zip(&push).for_each(|(p, push)| *p += push * (PUSH * load.pressure) + load.weight);
+        for ((p, push), turn) in p.iter_mut().zip(&push).zip(turn) {
+            *p += push * (PUSH * load.pressure) + turn + load.weight;
+        }
         let layers = self.layers(&p);
         for _ in 0..SWEEPS {
             self.balloon.part.edges.iter().for_each(|length| meet(&mut p, length, 2.0));
@@ -287,9 +301,8 @@ impl<'a> Motion<'a> {
             let normal = (c - a).cross(&(b - a));
             t.iter().for_each(|n| out[*n as usize] += normal);
         }
-        let share = |width: f64| ((width - STRAP) / STRAP).clamp(0.0, 1.0);
         let round = self.area.iter().zip(&self.balloon.part.over_shoulder);
-        out.iter().zip(round).map(|(n, (area, width))| n * share(*width) / area.max(f64::MIN_POSITIVE)).collect()
+        out.iter().zip(round).map(|(n, (area, width))| n * inflated(*width) / area.max(f64::MIN_POSITIVE)).collect()
     }
 
     /// Pairs of nodes of different layers that are near each other.
@@ -322,6 +335,11 @@ impl<'a> Motion<'a> {
 fn lower(p: &mut [Vec3], neckline: &Neckline) {
     let highest = neckline.shoulders.map(|n| p[n as usize].y).into_iter().fold(f64::NEG_INFINITY, f64::max);
     neckline.rim.iter().for_each(|n| p[*n as usize].y = p[*n as usize].y.min(highest + ABOVE_NECK));
+}
+
+/// The share of the pressure that inflates cloth of this width over a shoulder, metres.
+fn inflated(width: f64) -> f64 {
+    ((width - STRAP) / STRAP).clamp(0.0, 1.0)
 }
 
 /// A way no longer than [`LONGEST`].

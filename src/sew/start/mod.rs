@@ -21,6 +21,7 @@ mod crossing;
 mod deal;
 mod deal_error;
 mod ends;
+mod facing;
 mod girths;
 mod glue;
 mod hand_over;
@@ -141,6 +142,8 @@ struct OnFilm<'a> {
     edges: &'a [Length],
     rings: &'a [PartRing],
     limbs: &'a [Limb<'a>],
+    /// For each connected part, the body that it is put on: with its arms raised where it has no sleeves.
+    posed: &'a [&'a Axes],
     nodes: Vec<Vec3>,
 }
 
@@ -213,10 +216,13 @@ impl Dealt {
     ) -> Option<T> {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
-        let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
+        let raised = axes.with_arms_raised(1.0);
+        let pose = |part: &WornOpenings| if part.has_sleeves(&part.rings(axes)) { axes } else { &raised };
+        let posed: Vec<&Axes> = worn.iter().map(pose).collect();
+        let (rings, limbs) = rings_and_limbs(&worn, &posed, &self.glued, &edges)?;
         let plain: Vec<OpeningRing> = rings.iter().map(|of| of.ring.clone()).collect();
         let nodes = Film::new(self.glued.count, &edges, &plain)?.start(&plain, &limbs);
-        Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, limbs: &limbs, nodes }))
+        Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, limbs: &limbs, posed: &posed, nodes }))
     }
 
     /// Every connected part inflated: from a star, or from its film where it is none.
@@ -233,7 +239,8 @@ impl Dealt {
         for number in 0..film.worn.len() as u32 {
             let is_own = |n: u32| self.glued.part_of[n as usize] == number;
             let part = self.part(mesh, &film, &rims, number);
-            let star = part.star(axes);
+            let posed = film.posed[number as usize];
+            let star = part.star(posed);
             let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
             let balloon = Balloon {
                 part: &part,
@@ -241,6 +248,7 @@ impl Dealt {
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
+                raises_arms: !std::ptr::eq(posed, axes),
                 hangs: film.worn[number as usize].hangs(),
                 neckline: film.worn[number as usize].neckline(),
             };
@@ -391,12 +399,12 @@ impl Dealt {
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
     worn: &'a [WornOpenings],
+    posed: &[&'a Axes],
     glued: &Glued,
     edges: &[Length],
-    axes: &'a Axes,
 ) -> Option<(Vec<PartRing>, Vec<Limb<'a>>)> {
     let (mut rings, mut limbs) = (Vec::new(), Vec::new());
-    for (number, part) in worn.iter().enumerate() {
+    for (number, (part, axes)) in worn.iter().zip(posed).enumerate() {
         let before = rings.len();
         for (k, ring) in part.rings(axes).into_iter().enumerate() {
             let Some(ring) = ring else { continue };

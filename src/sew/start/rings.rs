@@ -37,6 +37,8 @@ const NEARLY_ALL: f64 = 0.9;
 /// The ring of a neck lies below its shoulders by this share of what its rim does on the average. It is flat: lowered
 /// by all of that, it drew the straps of a slip dress down beside the shoulders.
 const LOWERED: f64 = 0.5;
+/// Distances along the edges of a start mesh are alike if they differ by no more than this, metres: an edge.
+const ALIKE: f64 = 0.025;
 /// The opening that both arms pass through, of a halter, lies in front of the shoulders and behind the neck and the
 /// back by this, metres.
 const SADDLE: f64 = 0.1;
@@ -69,7 +71,7 @@ pub(super) struct WornOpenings<'a> {
 pub(super) struct Neckline {
     /// Its nodes.
     pub(super) rim: Vec<u32>,
-    /// Those of them that are nearest to the arms.
+    /// Those of them that lie on the shoulders.
     pub(super) shoulders: [u32; 2],
 }
 
@@ -116,11 +118,26 @@ impl WornOpenings<'_> {
     pub(super) fn neckline(&self) -> Option<Neckline> {
         let top = self.top().filter(|top| self.above[*top].is_none())?;
         let rim = &self.openings[top].rim;
+        let legs = || self.ends.iter().zip(&self.far).filter(|(ends, _)| ends.touches(Ends::LEGS));
+        let up = |n: u32| legs().map(|(_, far)| far[n as usize]).fold(f64::INFINITY, f64::min);
+        // A strap is as near to its arm all along: its shoulder is where it is furthest from the legs.
         let shoulder = |arm: Ends| {
             let far = &self.far[self.find(arm)?];
-            rim.iter().copied().min_by(|a, b| far[*a as usize].total_cmp(&far[*b as usize]))
+            let nearest = rim.iter().map(|n| far[*n as usize]).fold(f64::INFINITY, f64::min);
+            let alike = rim.iter().copied().filter(|n| far[*n as usize] <= nearest + ALIKE);
+            alike.max_by(|a, b| up(*a).total_cmp(&up(*b)))
         };
         Some(Neckline { shoulders: [shoulder(Ends::LEFT_ARM)?, shoulder(Ends::RIGHT_ARM)?], rim: rim.clone() })
+    }
+
+    /// Whether an arm is in a sleeve, as its `rings` say: further out than where it begins.
+    pub(super) fn has_sleeves(&self, rings: &[Option<OpeningRing>]) -> bool {
+        let is_arm = |ends: Ends| limb_of(ends).is_some_and(PartKind::is_arm);
+        let is_sleeve = |(ends, ring): (&Ends, &Option<OpeningRing>)| {
+            let along = ring.as_ref().and_then(|ring| ring.along);
+            is_arm(ends.others()) || is_arm(*ends) && along > Some(FIRST)
+        };
+        self.ends.iter().zip(rings).any(is_sleeve)
     }
 
     /// The opening that exactly these ends pass through.
@@ -176,7 +193,7 @@ impl WornOpenings<'_> {
             return Seat { station, along: None };
         }
         // Round the neck, and a shoulder with it.
-        let mut center = neck.center + Vec3::y() * (ABOVE_NECK - self.below_shoulders(k, axes, neck.center));
+        let mut center = neck.center + Vec3::y() * (ABOVE_NECK - self.below_shoulders(k));
         let mut axis = Vec3::y();
         for arm in [Ends::LEFT_ARM, Ends::RIGHT_ARM].into_iter().filter(|arm| ends.has(*arm)) {
             if let Some(arm) = limb_of(arm).and_then(|kind| axes.part(kind)) {
@@ -231,7 +248,18 @@ impl WornOpenings<'_> {
             let to_arm = ((from - neck).norm() - radius.min(0.5 * (from - neck).norm())).max(0.0);
             return nearest * (1.0 - SLACK) - to_arm;
         }
-        self.median(k, top) - (seat.station.center.y - from.y)
+        let (highest, length) = self.hung(k, torso, top, seat);
+        length - (highest - from.y)
+    }
+
+    /// The height that an opening hangs from, and how far below it is on the cloth, metres: from the shoulders, or
+    /// from the `top` and its seat.
+    fn hung(&self, k: usize, torso: &Axis, top: usize, seat: Seat) -> (f64, f64) {
+        let from_shoulders = self.neckline().map(|neckline| {
+            let length = neckline.shoulders.map(|n| self.far[k][n as usize]).into_iter().fold(f64::INFINITY, f64::min);
+            (torso.station(torso.length()).center.y, length)
+        });
+        from_shoulders.unwrap_or_else(|| (seat.station.center.y, self.median(k, top)))
     }
 
     /// How far an opening lies on the cloth from the rim of another one, metres: from its middle, and from its
@@ -244,20 +272,13 @@ impl WornOpenings<'_> {
     }
 
     /// How far the ring of a neck's opening lies below its shoulders, metres: the share [`LOWERED`] of how much nearer
-    /// its middle is to the hem, or of how far it lies out on the shoulders if that is less, as that of a dress on
-    /// straps.
-    fn below_shoulders(&self, k: usize, axes: &Axes, neck: Vec3) -> f64 {
-        let arm = [(Ends::LEFT_ARM, PartKind::LeftArm), (Ends::RIGHT_ARM, PartKind::RightArm)];
-        let out = arm.into_iter().filter_map(|(ends, kind)| {
-            let far = &self.far[self.find(ends)?];
-            let strap = self.openings[k].rim.iter().map(|n| far[*n as usize]).fold(f64::INFINITY, f64::min);
-            Some((axes.part(kind)?.station(0.0).center - neck).norm() - strap)
-        });
-        let out = out.fold(f64::INFINITY, f64::min);
-        let hem = self.ends.iter().position(|ends| ends.touches(Ends::LEGS)).filter(|_| out.is_finite());
+    /// its middle is to the hem.
+    fn below_shoulders(&self, k: usize) -> f64 {
+        let is_hung = [Ends::LEFT_ARM, Ends::RIGHT_ARM].into_iter().any(|arm| self.find(arm).is_some());
+        let hem = self.ends.iter().position(|ends| ends.touches(Ends::LEGS)).filter(|_| is_hung);
         hem.map_or(0.0, |hem| {
             let [mean, shoulders] = self.rim_from(hem, k);
-            LOWERED * (shoulders - mean).min(out).max(0.0)
+            LOWERED * (shoulders - mean).max(0.0)
         })
     }
 
@@ -272,10 +293,10 @@ impl WornOpenings<'_> {
     fn below(&self, k: usize, torso: &Axis, top: Option<(usize, Seat)>) -> AxisPlace {
         let crotch = torso.station(0.0).center;
         let y = top.map_or(crotch.y, |(top, seat)| {
-            let length = self.median(k, top);
+            let (highest, length) = self.hung(k, torso, top, seat);
             let wider = (self.openings[k].length - self.openings[top].length) / TAU;
             let drop = (length * length - wider * wider).max(0.0).sqrt().max(STEEPEST * length);
-            (seat.station.center.y - drop).max(LOWEST)
+            (highest - drop).max(LOWEST)
         });
         let on_trunk = torso.station(torso.nearest(Vec3::new(crotch.x, y, crotch.z))).center;
         AxisPlace { center: Vec3::new(on_trunk.x, y, on_trunk.z), axis: -Vec3::y() }
