@@ -2,6 +2,8 @@
 //!
 //! Lengths are constraints that are met one after another, sweep by sweep (position-based dynamics; Macklin, Müller and
 //! Chentanez 2016). Pressure along the normals opens every fold; bending is softer than any cloth's, so that they open.
+//! Where a garment has no sleeves the arms are raised at first, and come down as the body grows.
+//!
 //! No step carries cloth through cloth, or through the ways of the body (the bounds of contact): what starts without a
 //! crossing, round the right parts, stays so.
 
@@ -229,7 +231,7 @@ impl<'a> Motion<'a> {
         self.area.len()
     }
 
-    /// One step under a load, clear of a body that leads points `outside` it.
+    /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`.
     fn step(&mut self, load: Load, axes: &Axes, outside: impl Fn(Vec3) -> Vec3) {
         let push = self.pushed();
         let turn = facing::turned(&self.x[..self.count()], &self.balloon.part.triangles, &self.strap, axes);

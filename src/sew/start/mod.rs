@@ -142,9 +142,16 @@ struct OnFilm<'a> {
     edges: &'a [Length],
     rings: &'a [PartRing],
     limbs: &'a [Limb<'a>],
-    /// For each connected part, the body that it is put on: with its arms raised where it has no sleeves.
-    posed: &'a [&'a Axes],
+    /// For each connected part the body that it is put on.
+    posed: &'a [Posed<'a>],
     nodes: Vec<Vec3>,
+}
+
+/// The body that a part of a garment is put on: with its arms raised where it has no sleeves.
+#[derive(Clone, Copy)]
+struct Posed<'a> {
+    axes: &'a Axes,
+    raises_arms: bool,
 }
 
 /// A ring of a connected part.
@@ -217,8 +224,11 @@ impl Dealt {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
         let raised = axes.with_arms_raised(1.0);
-        let pose = |part: &WornOpenings| if part.has_sleeves(&part.rings(axes)) { axes } else { &raised };
-        let posed: Vec<&Axes> = worn.iter().map(pose).collect();
+        let pose = |part: &WornOpenings| {
+            let raises_arms = !part.has_sleeves(&part.rings(axes));
+            Posed { axes: if raises_arms { &raised } else { axes }, raises_arms }
+        };
+        let posed: Vec<Posed> = worn.iter().map(pose).collect();
         let (rings, limbs) = rings_and_limbs(&worn, &posed, &self.glued, &edges)?;
         let plain: Vec<OpeningRing> = rings.iter().map(|of| of.ring.clone()).collect();
         let nodes = Film::new(self.glued.count, &edges, &plain)?.start(&plain, &limbs);
@@ -240,7 +250,7 @@ impl Dealt {
             let is_own = |n: u32| self.glued.part_of[n as usize] == number;
             let part = self.part(mesh, &film, &rims, number);
             let posed = film.posed[number as usize];
-            let star = part.star(posed);
+            let star = part.star(posed.axes);
             let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
             let balloon = Balloon {
                 part: &part,
@@ -248,7 +258,7 @@ impl Dealt {
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
-                raises_arms: !std::ptr::eq(posed, axes),
+                raises_arms: posed.raises_arms,
                 hangs: film.worn[number as usize].hangs(),
                 neckline: film.worn[number as usize].neckline(),
             };
@@ -399,12 +409,12 @@ impl Dealt {
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
     worn: &'a [WornOpenings],
-    posed: &[&'a Axes],
+    posed: &[Posed<'a>],
     glued: &Glued,
     edges: &[Length],
 ) -> Option<(Vec<PartRing>, Vec<Limb<'a>>)> {
     let (mut rings, mut limbs) = (Vec::new(), Vec::new());
-    for (number, (part, axes)) in worn.iter().zip(posed).enumerate() {
+    for (number, (part, Posed { axes, .. })) in worn.iter().zip(posed).enumerate() {
         let before = rings.len();
         for (k, ring) in part.rings(axes).into_iter().enumerate() {
             let Some(ring) = ring else { continue };

@@ -259,7 +259,17 @@ impl WornOpenings<'_> {
             let length = neckline.shoulders.map(|n| self.far[k][n as usize]).into_iter().fold(f64::INFINITY, f64::min);
             (torso.station(torso.length()).center.y, length)
         });
-        from_shoulders.unwrap_or_else(|| (seat.station.center.y, self.median(k, top)))
+        from_shoulders
+            .or_else(|| self.from_nape(k, torso, top))
+            .unwrap_or_else(|| (seat.station.center.y, self.median(k, top)))
+    }
+
+    /// The same of a halter, from the nape: its strap goes a quarter of the way round the neck before it goes down.
+    fn from_nape(&self, k: usize, torso: &Axis, top: usize) -> Option<(f64, f64)> {
+        self.find(Ends::ARMS)?;
+        let nape = self.openings[top].rim.iter().map(|n| self.far[k][*n as usize]).fold(0.0, f64::max);
+        let neck = torso.length();
+        Some((torso.station(neck).center.y, (nape - 0.25 * torso.girth(neck)).max(0.0)))
     }
 
     /// How far an opening lies on the cloth from the rim of another one, metres: from its middle, and from its
@@ -274,7 +284,7 @@ impl WornOpenings<'_> {
     /// How far the ring of a neck's opening lies below its shoulders, metres: the share [`LOWERED`] of how much nearer
     /// its middle is to the hem.
     fn below_shoulders(&self, k: usize) -> f64 {
-        let is_hung = [Ends::LEFT_ARM, Ends::RIGHT_ARM].into_iter().any(|arm| self.find(arm).is_some());
+        let is_hung = [Ends::LEFT_ARM, Ends::RIGHT_ARM, Ends::ARMS].into_iter().any(|arm| self.find(arm).is_some());
         let hem = self.ends.iter().position(|ends| ends.touches(Ends::LEGS)).filter(|_| is_hung);
         hem.map_or(0.0, |hem| {
             let [mean, shoulders] = self.rim_from(hem, k);

@@ -83,13 +83,14 @@ impl GluedPart<'_> {
         let film = Film::new(self.count(), &pulls, &rims)?;
         let middles = Film::new(self.count(), &pulls, &self.middles())?;
         let sights = self.sights(&film, axes)?;
-        let roomiest = sights.first().map(|sight| (sight.from, sight.room))?;
+        let (to, room) = sights.first().map(|roomiest| (roomiest.from, roomiest.room))?;
         let mut tried: Vec<Sight> = sights.into_iter().take(TRIES).collect();
         tried.iter_mut().for_each(|sight| self.spread_out(&mut sight.directions));
         let found = [Rounds::Short, Rounds::Long]
             .into_iter()
             .find_map(|rounds| tried.iter().find_map(|sight| self.unfolded(sight.clone(), rounds, &middles)))?;
-        let found = if roomiest.1 < 0.0 { found } else { self.led_to(roomiest.0, found, &middles) };
+        // Where mouths overlap from every point, there is none to lead it to.
+        let found = if room < 0.0 { found } else { self.led_to(to, found, &middles) };
         let Sight { from, circles, directions, .. } = found;
         let ways = ways_out(&self.mouths, from, axes);
         let mut nodes = self.at_reach(&directions, &circles, &rims)?;

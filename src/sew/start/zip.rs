@@ -16,7 +16,7 @@ const WIDEST: f64 = 2.2;
 const LEAST: f64 = 0.1;
 /// A rim of less than this share of a neck and a trunk together is no neckline with a hem: a pocket's.
 const SHORT: f64 = 0.5;
-/// Of two places in the drawing of their pieces one is above the other if it is higher up by this share of their height.
+/// A place in the drawing of its piece is above another one if it is higher up by this share of a piece's height.
 const UPRIGHT: f64 = 0.5;
 /// A corner of a rim turns by at least this much (cosine; 40°).
 const CORNER: f64 = 0.77;
@@ -35,8 +35,8 @@ fn zip(wearing: &Wearing, ends: &[Ends], i: usize) -> Option<Vec<[u32; 2]>> {
     let (one, other) = (one?, other?);
     let arms = || own.iter().filter(|&&j| j != i && !ends[j].is_empty() && Ends::ARMS.has(ends[j]));
     let far = |n: u32| arms().map(|&j| wearing.far[j][n as usize]).sum::<f64>();
-    // Pieces are drawn upright. Of one drawn on its side the back of the neck is nearer to the arms than that of the hem;
-    // of a bolero, which is short, it is not.
+    // Pieces are drawn upright. In one drawn on its side the back of the neck is nearer to the arms than that of the
+    // hem; of a bolero, which is short, it is not.
     let below = drawn_height(wearing, one) - drawn_height(wearing, other);
     let is_drawn_upright = below.abs() > UPRIGHT || arms().next().is_none();
     let is_above = if is_drawn_upright { below <= 0.0 } else { far(one) <= far(other) };
