@@ -14,6 +14,11 @@ use crate::errors;
 /// The name and the bytes of a file.
 pub(crate) type NamedBytes = (String, Vec<u8>);
 
+/// Arrays that `pickle` has kept: positions, ease and pressure.
+type OnVertices<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
+/// Faces, flat positions, names of pieces, the piece of each face, strain.
+type OnFaces<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Vec<String>, Bound<'py, PyAny>, Bound<'py, PyAny>);
+
 /// A garment that was made.
 pub(crate) struct Made {
     pub(crate) name: String,
@@ -70,7 +75,7 @@ pub(crate) fn corners_of(array: &Bound<'_, PyAny>) -> PyResult<Vec<[[f64; 2]; 3]
 
 /// All values of an array, one after the other.
 pub(crate) fn values_of<'py, T: Element>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, T>> {
-    Ok(array.call_method0("ravel")?.extract()?)
+    array.call_method0("ravel")?.extract()
 }
 
 /// Files of the library with names of their own.
@@ -194,8 +199,8 @@ impl Result {
     fn _restored(
         name: String,
         files: Vec<NamedBytes>,
-        on_vertices: (Bound<'_, PyAny>, Bound<'_, PyAny>, Bound<'_, PyAny>),
-        on_faces: (Bound<'_, PyAny>, Bound<'_, PyAny>, Vec<String>, Bound<'_, PyAny>, Bound<'_, PyAny>),
+        on_vertices: OnVertices<'_>,
+        on_faces: OnFaces<'_>,
         in_bounds: bool,
         notes: Vec<String>,
         inputs: Vec<PathBuf>,
