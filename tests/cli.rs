@@ -1091,7 +1091,8 @@ fn mistakes_in_arguments() {
     wrong(&["make", "skirt.yaml", "--fabric", "denin"], &["denin", "did you mean 'denim'"]);
     wrong(&["make", "skirt.yaml", "--fabric", "no.yaml"], &["no.yaml"]);
     wrong(&["make", "skirt.yaml", "--body", "no.obj"], &["no.obj"]);
-    wrong(&["make", "skirt.yaml", "--threads", "0"], &["--threads"]);
+    wrong(&["make", "skirt.yaml", "--threads", "0"], &["--threads", "a whole number from 1 on"]);
+    wrong(&["batch", "skirt.yaml", "-o", "store", "-j", "-1"], &["--jobs", "a whole number from 1 on"]);
     wrong(&["flatten", "a.obj", "--from", "b.obj"], &["--from"]);
     wrong(&["flatten", "a.yaml", "--cut", "auto"], &["--cut", "surface"]);
     wrong(&["flatten", "a.obj", "--up", "0,0,0"], &["--up", "X,Y,Z"]);

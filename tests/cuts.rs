@@ -425,3 +425,20 @@ fn darts_that_bring_nothing_are_closed_again() {
     let (most, one) = (strain(Some(Darts::Auto)), strain(Some(Darts::Count(1))));
     assert!(most.0 < 3 && most.1 < 1.001 * one.1 && one.1 < 0.6 * strain(None).1, "{most:?} {one:?}");
 }
+
+#[test]
+fn a_slit_of_one_edge_goes_the_long_way_and_numbers_are_as_wanted() {
+    // On so few faces the straight line between the ends of the slit is an edge, along which a cut opens nothing.
+    let corners = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 100.0, 0.0], [0.0, 0.0, 100.0]].map(Vec3::from);
+    let ball = TriMesh { vertices: corners.to_vec(), triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
+    let cuts = |first_number| {
+        let cuts = Cuts { auto: true, ..Cuts::default() };
+        let flat = laid(&ball, &SurfaceOptions { cuts, first_number, ..options() });
+        assert_eq!((flat.report.pieces.len(), flat.report.failed.len()), (1, 0));
+        flat.report.cuts
+    };
+    let (from_one, from_zero) = (cuts(1), cuts(0));
+    assert!(from_one[0].len() > 2, "{from_one:?}");
+    let less = |chain: &Vec<u32>| chain.iter().map(|v| v - 1).collect::<Vec<_>>();
+    assert_eq!(from_zero, from_one.iter().map(less).collect::<Vec<_>>());
+}

@@ -588,6 +588,9 @@ fn files_that_are_none_are_refused_at_once() {
     assert!(matches!(file("list.yaml", b"- 1\n- 2\n"), Problem::WrongType { .. }));
     assert!(matches!(file("word.yaml", b"garment"), Problem::WrongType { .. }));
     assert!(matches!(file("torn.yaml", b"garment: [1\nname: }"), Problem::Syntax(_)));
+    // "Unprintable" is no tab.
+    let hint = |text: &[u8]| file("hint.yaml", text).hint().unwrap_or_default();
+    assert!(hint(b"garment: 1\n\tname: a").contains("tab") && !hint(b"garment: \x01").contains("tab"));
     assert_eq!(file("two.yaml", b"a: 1\n---\nb: 2\n"), Problem::SecondDocument);
     assert!(matches!(file("bare.yaml", b"garment: 1\n"), Problem::MissingKey { key: "pieces", .. }));
     let deep = "[".repeat(100);

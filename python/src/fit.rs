@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use toile::fitting::{Asked, DRAPES, Fitting, LEAST_DRAPES, SPACING, fit};
 use toile::io::garment::{Variant, read_wants, wants_of};
@@ -19,7 +20,13 @@ use crate::work::with_signals;
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Fit {
     garment: Option<Py<Garment>>,
-    found: Fitting,
+    /// The name of the garment.
+    of: String,
+    changes: Vec<String>,
+    alterations: Vec<String>,
+    problems: Vec<String>,
+    /// The figures as JSON.
+    report: String,
 }
 
 /// Wants that are not read yet: a text, or a file. The garment's unit is that of their bare lengths.
@@ -74,8 +81,17 @@ pub(crate) fn find(
 }
 
 impl Fit {
-    pub(crate) fn new(garment: Option<Py<Garment>>, found: Fitting) -> Self {
-        Self { garment, found }
+    pub(crate) fn new(py: Python<'_>, garment: Option<Py<Garment>>, found: &Fitting) -> PyResult<Self> {
+        let report = json_text(found).map_err(|e| errors::pipeline(py, &e, &[]))?;
+        let problems = found.refused.iter().chain(&found.problems);
+        Ok(Self {
+            garment,
+            of: found.garment.clone(),
+            changes: found.changes.clone(),
+            alterations: found.alter.clone(),
+            problems: problems.map(|problem| errors::in_python(problem)).collect(),
+            report,
+        })
     }
 }
 
@@ -90,37 +106,55 @@ impl Fit {
     /// The changes in words.
     #[getter]
     fn changes(&self) -> Vec<String> {
-        self.found.changes.clone()
+        self.changes.clone()
     }
 
     /// The alterations as they stand in a garment file, a text each, as :meth:`Garment.alter` takes them.
     #[getter]
     fn alterations(&self) -> Vec<String> {
-        self.found.alter.clone()
+        self.alterations.clone()
     }
 
     /// Why the wants cannot be had, and problems that the altered garment has and the one before had not.
     #[getter]
     fn problems(&self) -> Vec<String> {
-        let all = self.found.refused.iter().chain(&self.found.problems);
-        all.map(|problem| errors::in_python(problem)).collect()
+        self.problems.clone()
     }
 
     /// The figures, as of ``toile fit --json``: the wants before and after, the alterations and their amounts.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text = json_text(&self.found).map_err(|e| errors::pipeline(py, &e, &[]))?;
-        parsed(py, text.as_bytes())
+        parsed(py, self.report.as_bytes())
     }
 
     /// Whether the garment fits as it is wanted (exit code 0 of ``toile fit``, otherwise 1).
     #[getter]
     fn in_bounds(&self) -> bool {
-        self.found.refused.is_empty() && self.found.problems.is_empty()
+        self.problems.is_empty()
+    }
+
+    /// The state for `pickle`.
+    #[getter]
+    fn _state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Self { of, changes, alterations, problems, report, .. } = self;
+        (self.garment(py), of, changes, alterations, problems, report).into_bound_py_any(py)
+    }
+
+    /// The fit that `pickle` has kept.
+    #[staticmethod]
+    fn _restored(
+        garment: Option<Py<Garment>>,
+        of: String,
+        changes: Vec<String>,
+        alterations: Vec<String>,
+        problems: Vec<String>,
+        report: String,
+    ) -> Self {
+        Self { garment, of, changes, alterations, problems, report }
     }
 
     fn __repr__(&self) -> String {
         let fits = if self.in_bounds() { "fits" } else { "does not fit" };
-        format!("<toile.Fit of '{}': {fits}, {} changes>", self.found.garment, self.found.changes.len())
+        format!("<toile.Fit of '{}': {fits}, {} changes>", self.of, self.changes.len())
     }
 }

@@ -20,7 +20,7 @@ use crate::arguments::{Count, wrong_kind};
 use crate::fit::{self, Fit};
 use crate::library::{GivenBody, GivenFabric};
 use crate::options::{self, Earlier, Start, known_body, overrides};
-use crate::result::{Made, Result as Outcome, json};
+use crate::result::{Made, Result as Outcome, json, named};
 use crate::work::with_signals;
 use crate::{errors, library};
 
@@ -76,8 +76,8 @@ impl Garment {
     #[staticmethod]
     #[pyo3(signature = (path, body=None))]
     fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<GivenBody>) -> PyResult<Self> {
-        let text = std::fs::read_to_string(&path);
-        let text = text.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
+        let text = garmentcode::text_of(&path);
+        let text = text.map_err(|why| errors::input(py, format!("{}: {why}", path.display())))?;
         let stem = stem(&path);
         let name = stem.strip_suffix("_specification").unwrap_or(&stem);
         let (body, measures) = body.map(GivenBody::parts).map_or((None, None), |(b, m)| (Some(b), Some(m)));
@@ -277,7 +277,7 @@ impl Garment {
         let found = fit::find(py, (file.clone(), old.clone()), wants, wanted, drapes, threads, progress.as_ref())?;
         let text = found.new.as_ref().map(|new| new.text.clone()).or_else(|| found.refused.is_empty().then_some(old));
         let altered = text.map(|text| Self { file, text, alter: Vec::new(), notes: self.notes.clone() });
-        Ok(Fit::new(altered.map(|garment| Py::new(py, garment)).transpose()?, found))
+        Fit::new(py, altered.map(|garment| Py::new(py, garment)).transpose()?, &found)
     }
 
     /// Writes the garment file (YAML), with its alterations carried out, whole or not at all.
@@ -382,7 +382,7 @@ fn make(
         return Err(Failed { error: Box::new(error), files });
     }
     let report = run.report();
-    let files = run.results(&report, &PictureOptions::default())?;
+    let files = named(run.results(&report, &PictureOptions::default())?);
     let found = problems(&job, &report);
     Ok(Made {
         name: report.garment.clone(),

@@ -250,7 +250,7 @@ impl Fabric {
         let name = name.or_else(|| file.as_ref().and_then(stem)).unwrap_or_else(|| "measured".to_owned());
         let measured = py.detach(|| match &file {
             Some(file) => measure(file, &name),
-            None => measure_text(&text, &folder.join("readings.yaml"), &name),
+            None => measure_text(&text, &folder.join("readings"), &name),
         });
         let measured = measured.map_err(|e| errors::input(py, e))?;
         let notes = measured.notes.into_iter().chain(measured.fabric.notes()).collect();

@@ -63,7 +63,8 @@ pub(crate) fn overrides(
     mm: Option<f64>,
     body_units: Option<&str>,
 ) -> PyResult<Overrides> {
-    let body_unit = body_units.map(library::unit).transpose().map_err(|why| errors::input(py, why))?;
+    let body_unit = body_units.map(library::unit).transpose();
+    let body_unit = body_unit.map_err(|why| errors::input(py, format!("body_{why}")))?;
     if body_unit.is_some() && body.as_ref().is_some_and(GivenBody::is_object) {
         return Err(errors::input(py, "body_units: a Body has its unit already"));
     }

@@ -2,17 +2,27 @@
 
 use std::path::PathBuf;
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use toile::io::files::write_all;
 use toile::pipeline::{Arrays, REPORT_JSON, ResultFile};
 
 use crate::errors;
 
+/// The name and the bytes of a file.
+pub(crate) type NamedBytes = (String, Vec<u8>);
+
+/// Arrays that `pickle` has kept: positions, ease and pressure.
+type OnVertices<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
+/// Faces, flat positions, names of pieces, the piece of each face, strain.
+type OnFaces<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Vec<String>, Bound<'py, PyAny>, Bound<'py, PyAny>);
+
 /// A garment that was made.
 pub(crate) struct Made {
     pub(crate) name: String,
-    pub(crate) files: Vec<ResultFile>,
+    pub(crate) files: Vec<NamedBytes>,
     pub(crate) arrays: Arrays,
     pub(crate) in_bounds: bool,
     pub(crate) notes: Vec<String>,
@@ -53,6 +63,31 @@ pub(crate) fn corners<'py>(py: Python<'py>, values: &[[[f64; 2]; 3]]) -> PyResul
     values.concat().concat().into_pyarray(py).reshape([values.len(), 3, 2])
 }
 
+/// The rows of an array that [`rows`] has made.
+fn rows_of<T: Element + Copy, const N: usize>(array: &Bound<'_, PyAny>) -> PyResult<Vec<[T; N]>> {
+    Ok(values_of(array)?.as_slice()?.as_chunks().0.to_vec())
+}
+
+/// The values of an array that [`corners`] has made.
+pub(crate) fn corners_of(array: &Bound<'_, PyAny>) -> PyResult<Vec<[[f64; 2]; 3]>> {
+    Ok(values_of::<f64>(array)?.as_slice()?.as_chunks().0.as_chunks().0.to_vec())
+}
+
+/// All values of an array, one after the other.
+pub(crate) fn values_of<'py, T: Element>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, T>> {
+    array.call_method0("ravel")?.extract()
+}
+
+/// Files of the library with names of their own.
+pub(crate) fn named(files: Vec<ResultFile>) -> Vec<NamedBytes> {
+    files.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect()
+}
+
+/// Files whose bytes can be pickled as such.
+pub(crate) fn as_bytes<'py>(py: Python<'py>, files: &[NamedBytes]) -> Vec<(String, Bound<'py, PyBytes>)> {
+    files.iter().map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes))).collect()
+}
+
 /// A JSON text as Python's own values.
 pub(crate) fn parsed<'py>(py: Python<'py>, text: &[u8]) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (text,))
@@ -64,7 +99,7 @@ pub(crate) fn json(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<String>
 }
 
 /// Writes files into a folder, whole or not at all.
-pub(crate) fn save(py: Python<'_>, folder: &std::path::Path, files: &[ResultFile], inputs: &[PathBuf]) -> PyResult<()> {
+pub(crate) fn save(py: Python<'_>, folder: &std::path::Path, files: &[NamedBytes], inputs: &[PathBuf]) -> PyResult<()> {
     let files: Vec<_> = files.iter().map(|(name, bytes)| (folder.join(name), bytes.clone())).collect();
     let inputs: Vec<_> = inputs.iter().map(PathBuf::as_path).collect();
     py.detach(|| write_all(&files, &inputs)).map_err(|e| errors::write(py, &e))
@@ -148,6 +183,41 @@ impl Result {
     /// Writes the files of ``toile make``, whole or not at all: the same bytes, but for times in the report.
     fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         save(py, &folder, &self.0.files, &self.0.inputs)
+    }
+
+    /// The state for `pickle`: the arrays are in the order of [`Arrays`].
+    #[getter]
+    fn _state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Made { name, files, in_bounds, notes, inputs, .. } = &self.0;
+        let on_faces = (self.faces(py)?, self.uv(py)?, self.pieces(), self.piece_of_face(py), self.strain(py)?);
+        let on_vertices = (self.vertices(py)?, self.ease(py), self.pressure(py));
+        (name, as_bytes(py, files), on_vertices, on_faces, in_bounds, notes, inputs).into_bound_py_any(py)
+    }
+
+    /// The result that `pickle` has kept.
+    #[staticmethod]
+    fn _restored(
+        name: String,
+        files: Vec<NamedBytes>,
+        on_vertices: OnVertices<'_>,
+        on_faces: OnFaces<'_>,
+        in_bounds: bool,
+        notes: Vec<String>,
+        inputs: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let (vertices, ease, pressure) = on_vertices;
+        let (faces, uv, pieces, piece_of_face, strain) = on_faces;
+        let arrays = Arrays {
+            vertices: rows_of(&vertices)?,
+            faces: rows_of(&faces)?,
+            uv: corners_of(&uv)?,
+            pieces,
+            piece_of_face: values_of(&piece_of_face)?.to_vec()?,
+            strain: corners_of(&strain)?,
+            ease: values_of(&ease)?.to_vec()?,
+            pressure: values_of(&pressure)?.to_vec()?,
+        };
+        Ok(Self(Made { name, files, arrays, in_bounds, notes, inputs }))
     }
 
     fn __repr__(&self) -> String {

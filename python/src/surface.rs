@@ -2,17 +2,18 @@
 
 use std::path::PathBuf;
 
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray3, PyArrayLike2};
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray3, PyArrayLike2, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use toile::flatten::{FlattenOptions, Mode};
 use toile::geometry::Vec3;
 use toile::io::obj_read::ObjFaces;
-use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, Weld, flatten_faces};
+use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, SurfaceOptions, Weld, flatten_faces};
 
 use crate::arguments::Count;
 use crate::errors;
 use crate::library::unit;
-use crate::result::{corners, parsed, save};
+use crate::result::{NamedBytes, as_bytes, corners, corners_of, named, parsed, save, values_of};
 use crate::work::with_signals;
 
 /// A surface laid flat: m triangles.
@@ -22,7 +23,7 @@ pub(crate) struct Flat {
     piece_of_face: Vec<i32>,
     pieces: Vec<String>,
     notes: Vec<String>,
-    files: Vec<ResultFile>,
+    files: Vec<NamedBytes>,
 }
 
 fn mode(name: &str) -> Result<Mode, String> {
@@ -40,19 +41,27 @@ fn mode(name: &str) -> Result<Mode, String> {
 fn triples<'py>(value: &Bound<'py, PyAny>, what: &str, [kinds, expected]: [&str; 2]) -> PyResult<Bound<'py, PyAny>> {
     let py = value.py();
     let wrong = |why: String| errors::input(py, format!("{what}: {why}"));
-    let array = py.import("numpy")?.call_method1("asarray", (value,)).map_err(|e| wrong(e.value(py).to_string()))?;
+    let numpy = py.import("numpy")?;
+    if numpy.getattr("ma")?.call_method1("is_masked", (value,))?.extract()? {
+        return Err(wrong("some are masked; leave them out, or give them with filled()".into()));
+    }
+    let array = numpy.call_method1("asarray", (value,)).map_err(|e| wrong(e.value(py).to_string()))?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if shape.contains(&0) {
         return Err(wrong("there are none".into()));
     }
     if shape.len() != 2 || shape[1] != 3 {
-        let shape: Vec<String> = shape.iter().map(ToString::to_string).collect();
-        return Err(wrong(format!("the shape is to be (n, 3), not ({})", shape.join(", "))));
+        return Err(wrong(format!("the shape is to be (n, 3), not {}", array.getattr("shape")?)));
     }
     let dtype = array.getattr("dtype")?;
     let kind: String = dtype.getattr("kind")?.extract()?;
     if !kinds.contains(&kind) {
         return Err(wrong(format!("{expected} are expected, not {dtype}")));
+    }
+    // Whole numbers that our type does not hold would become others.
+    let largest = array.call_method0("max")?;
+    if kind == "u" && largest.gt(i64::MAX)? {
+        return Err(wrong(format!("{largest} is too large")));
     }
     Ok(array)
 }
@@ -85,7 +94,8 @@ fn surface(
 ///
 /// Args:
 ///     vertices: Shape (n, 3): positions.
-///     faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
+///     faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside. Messages, notes and the
+///         report number vertices and faces as these arrays do, from 0; the command ``toile flatten`` does from 1.
 ///     mode: What to keep where not everything can be kept.
 ///     units: Unit of the positions; None guesses it from the size.
 ///     up: Direction that lies along the grain (y, or z where the surface runs along z).
@@ -134,6 +144,7 @@ pub(crate) fn flatten(
         cuts: Cuts { auto: cut, ..Cuts::default() },
         darts: (darts > 0).then_some(Darts::Count(darts)),
         flatten: FlattenOptions { mode: self::mode(mode).map_err(wrong)?, ..FlattenOptions::default() },
+        first_number: 0,
         ..SurfaceOptions::default()
     };
     let vertices = triples(vertices, "vertices", ["fiu", "numbers"])?.extract()?;
@@ -146,11 +157,11 @@ pub(crate) fn flatten(
         Ok((flat, files))
     })?;
     let (flat, files) = flat.map_err(|e| errors::pipeline(py, &e, &[]))?;
-    Ok(Flat::new(&flat, files))
+    Ok(Flat::new(&flat, named(files)))
 }
 
 impl Flat {
-    fn new(flat: &FlatSurface, files: Vec<ResultFile>) -> Self {
+    fn new(flat: &FlatSurface, files: Vec<NamedBytes>) -> Self {
         let mut out = Self {
             uv: Vec::new(),
             piece_of_face: Vec::new(),
@@ -206,6 +217,26 @@ impl Flat {
     /// Writes the files of ``toile flatten``, whole or not at all.
     fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         save(py, &folder, &self.files, &[])
+    }
+
+    /// The state for `pickle`.
+    #[getter]
+    fn _state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Self { pieces, notes, files, .. } = self;
+        (self.uv(py)?, self.piece_of_face(py), pieces, notes, as_bytes(py, files)).into_bound_py_any(py)
+    }
+
+    /// The flat surface that `pickle` has kept.
+    #[staticmethod]
+    fn _restored(
+        uv: Bound<'_, PyAny>,
+        piece_of_face: Bound<'_, PyAny>,
+        pieces: Vec<String>,
+        notes: Vec<String>,
+        files: Vec<NamedBytes>,
+    ) -> PyResult<Self> {
+        let (uv, piece_of_face) = (corners_of(&uv)?, values_of(&piece_of_face)?.to_vec()?);
+        Ok(Self { uv, piece_of_face, pieces, notes, files })
     }
 
     fn __repr__(&self) -> String {

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import copy
 import json
+import multiprocessing
 import os
 import pickle
 import subprocess
 import sys
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -216,6 +218,56 @@ def test_garments_are_saved_and_pickled(skirt: Path, tmp_path: Path) -> None:
         assert other(measured).areal_density == measured.areal_density and other(measured).name == "mine"
         assert other(toile.Fabric.load("denim")).name == "denim"
         other(measured).save(tmp_path / "mine.yaml")
+
+
+def test_results_are_pickled(skirt: Path, tmp_path: Path) -> None:
+    """As a process of a pool hands them back."""
+    garment = toile.Garment.load(skirt)
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        there = pool.submit(garment.make, spacing=COARSE).result()
+    made = garment.make(spacing=COARSE)
+    for name in ["vertices", "faces", "uv", "piece_of_face", "strain", "ease", "pressure"]:
+        ours, theirs = getattr(made, name), getattr(there, name)
+        assert np.array_equal(ours, theirs) and ours.dtype == theirs.dtype and ours.shape == theirs.shape, name
+    assert (there.name, there.pieces, there.in_bounds, there.notes) == ("skirt", made.pieces, made.in_bounds, made.notes)
+    for result in [made, there]:
+        result.save(tmp_path / "out")
+        on = garment.make(spacing=COARSE, start=result)
+        assert np.array_equal(on.vertices, garment.make(spacing=COARSE, start=made).vertices)
+    # The garment file stays an input that is not written over.
+    put_ball_and_sheet(tmp_path)
+    (tmp_path / "sheet.yaml").rename(tmp_path / "report.json")
+    with pytest.raises(toile.InputError):
+        pickle.loads(pickle.dumps(toile.Garment.load(tmp_path / "report.json").make(spacing=20))).save(tmp_path)
+
+    flat = toile.flatten([[0, 0, 0], [100, 0, 0], [0, 100, 0]], [[0, 1, 2], [0, 0, 1]])
+    other = pickle.loads(pickle.dumps(flat))
+    assert np.array_equal(other.uv, flat.uv, equal_nan=True) and np.array_equal(other.piece_of_face, flat.piece_of_face)
+    assert (other.pieces, other.notes, other.report) == (flat.pieces, flat.notes, flat.report)
+    other.save(tmp_path / "flat")
+    found = garment.fit({"hem": {"above_floor": "100..2000 mm"}}, spacing=COARSE)
+    again = copy.deepcopy(found)
+    assert again.garment is not None and found.garment is not None and again.garment.text == found.garment.text
+    assert (again.report, again.in_bounds, repr(again)) == (found.report, found.in_bounds, repr(found))
+
+
+def test_files_that_are_none_are_told(skirt: Path, tmp_path: Path) -> None:
+    endless, pipe = Path("/dev/zero"), tmp_path / "pipe"
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(pipe)
+    for file in [endless, pipe, tmp_path]:
+        if file.exists():
+            for read in [toile.Garment.from_garmentcode, toile.Garment.from_svg, toile.Garment.load]:
+                with pytest.raises(toile.InputError, match=file.name):
+                    read(file)
+    (tmp_path / "index.jsonl").write_bytes(b"\xff\n")
+    for store in [tmp_path, "a\0b"]:
+        with pytest.raises(toile.InputError, match="is this the store of a batch"):
+            toile.index(store)
+    with pytest.raises(toile.InputError, match="^body_units: 'ft' is no unit"):
+        toile.Garment.load(skirt).make(body_units="ft")  # type: ignore[arg-type]
+    with pytest.raises(toile.InputError, match="^readings has no measurements"):
+        toile.Fabric.measure({})
 
 
 def test_a_fit_is_that_of_the_command_line(skirt: Path, tmp_path: Path) -> None:

@@ -85,7 +85,37 @@ def test_triangles_that_share_no_vertices_are_joined() -> None:
     assert "; weld=0.01 joins them" in advice
     with pytest.raises(toile.InputError, match="weld: -1 is no distance"):
         toile.flatten(vertices, faces, weld=-1)
-    ball = np.array([[0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100]])
     with pytest.raises(toile.InputError, match="cut=True would cut") as raised:
-        toile.flatten(ball, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        toile.flatten(*BALL)
     assert "--" not in str(raised.value)
+
+
+BALL = ([[0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_vertices_and_faces_have_the_numbers_of_the_arrays() -> None:
+    square = [[0, 0, 0], [100, 0, 0], [0, 100, 0], [100, 100, 0], [50, 50, 50]]
+    with pytest.raises(toile.InputError, match="in the edge of vertices 1 and 2$"):
+        toile.flatten(square, [[0, 1, 2], [1, 3, 2], [1, 2, 4]])
+    flat = toile.flatten(square[:4], [[0, 1, 2], [0, 1, 2], [1, 3, 2], [0, 0, 1]])
+    assert flat.piece_of_face.tolist() == [0, -1, 0, -1]
+    assert [note for note in flat.notes if "the same corners" in note][0].endswith("the first is face 1")
+    # On so few faces the straight line between the ends of the cut would be an edge, which opens nothing.
+    cut = toile.flatten(*BALL, cut=True)
+    [made] = cut.report["cuts_made"]
+    [chain] = cut.report["cuts"]
+    assert (made["from"], made["to"]) == (chain[0], chain[-1]) and len(chain) == 3 and set(chain) <= {0, 1, 2, 3}
+    assert any(f"from vertex {made['from']} to vertex {made['to']}" in note for note in cut.notes)
+
+
+def test_what_arrays_hide_is_told() -> None:
+    vertices, faces = half_cylinder()
+    masked = np.ma.masked_array(vertices, mask=vertices > HEIGHT - 1)
+    with pytest.raises(toile.InputError, match="vertices: some are masked"):
+        toile.flatten(masked, faces)
+    whole = np.ma.masked_array(vertices)
+    assert np.array_equal(toile.flatten(whole, faces).uv, toile.flatten(vertices, faces).uv)
+    with pytest.raises(toile.InputError, match=f"faces: {2**64 - 1} is too large"):
+        toile.flatten(vertices, np.array([[0, 1, 2**64 - 1]], dtype=np.uint64))
+    with pytest.raises(toile.InputError, match=r"the shape is to be \(n, 3\), not \(9,\)"):
+        toile.flatten(np.zeros(9), faces)

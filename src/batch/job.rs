@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 
 use super::error::{BatchError, Mistake};
 use crate::fabric;
-use crate::input::{InputError, LengthUnit, bytes, is_file_name, stem, whole};
+use crate::input::{InputError, LengthUnit, bytes, is_file_name, shown, stem, whole};
 use crate::io::garment::alterations_in;
 use crate::mannequin::{self, Measures};
 
@@ -16,6 +16,8 @@ use crate::mannequin::{self, Measures};
 const LARGEST_LIST: u64 = 1 << 30;
 /// Characters of an id: more than any file's name and the number of its line have.
 const LONGEST_ID: usize = 300;
+/// Characters of a wrong id in a message.
+const SHOWN_ID: usize = 60;
 
 /// One garment to make. Its paths can be opened as they are.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -53,7 +55,7 @@ pub struct BatchJob {
 
 /// A line of a list, unchecked. Its paths are relative to the list.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object such as {\"garment\": \"skirt.yaml\"}")]
 struct JobLine {
     id: Option<String>,
     garment: Option<OneOrMany>,
@@ -204,7 +206,8 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &BatchJob, mark: &str) -> 
     let garment: Vec<PathBuf> = garment.iter().map(|file| folder.join(file)).collect();
     let id = said.id.unwrap_or_else(|| format!("{}-{mark}", stem(&garment[0])));
     if id.is_empty() || id.chars().count() > LONGEST_ID || id.chars().any(char::is_control) {
-        return Err(format!("an id has 1 to {LONGEST_ID} visible characters"));
+        let id = shown(&format!("{id:?}"), SHOWN_ID);
+        return Err(format!("the id {id}: an id has 1 to {LONGEST_ID} visible characters"));
     }
     let at = |name: String, shipped: Vec<&str>| in_folder(folder, name, &shipped);
     let job = BatchJob {
@@ -260,13 +263,15 @@ fn in_folder(folder: &Path, name: String, shipped: &[&str]) -> String {
     if is_file_name(&name, shipped) { folder.join(name).display().to_string() } else { name }
 }
 
-/// The parser's message without its line, which is always the first.
+/// The parser's message in plain words and without its line, which is always the first.
 fn plain(error: &serde_json::Error) -> String {
     let text = error.to_string();
-    match text.rsplit_once(" at line ") {
-        Some((message, _)) => format!("{message} (column {})", error.column()),
-        None => text,
-    }
+    let Some((message, _)) = text.rsplit_once(" at line ") else { return text };
+    let message = message.replace("expected f64", "expected a number").replace("EOF while parsing", "the line ends in");
+    // Where the parser expects a value, anything else is no JSON at all.
+    let message =
+        if message == "expected value" { "this is no JSON; a text stands in \"…\"".into() } else { message };
+    format!("{message} (column {})", error.column())
 }
 
 #[cfg(test)]
@@ -305,6 +310,12 @@ mod tests {
         assert!(said(r#"{"garment": "a.yaml", "body_units": "ft"}"#).contains("known are mm, cm, dm, m, in"));
         assert!(said(r#"{"garment": 3}"#).contains("the name of a file"));
         assert!(said(r#" ["a", "skirt.yaml"]"#).contains("not a list"));
+        // Words of the parser that only a programmer knows are translated.
+        assert!(said("garment: a.yaml").starts_with("this is no JSON"));
+        assert!(said(r#""a.yaml""#).contains(r#"expected an object such as {"garment": "skirt.yaml"}"#));
+        assert!(said(r#"{"garment": "a.yaml", "spacing": "60"}"#).contains(r#"string "60", expected a number"#));
+        assert!(said(r#"{"garment": "a.yaml""#).contains("the line ends in an object"));
+        assert!(said(r#"{"garment": "a\u0000b.yaml"}"#).contains(r#"the id "a\0b-7": an id has"#));
         let measure = said(r#"{"garment": "a.yaml", "measures": {"wais": 700}}"#);
         assert!(measure.contains("'wais' is no measure; did you mean 'waist'?"), "{measure}");
         let alteration = said(r#"{"garment": "a.yaml", "alter": [{"lenghten": "front", "at": 200, "by": 20}]}"#);

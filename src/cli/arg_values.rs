@@ -1,5 +1,6 @@
 //! Values of arguments that several commands take, from their texts.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -30,6 +31,11 @@ pub(super) fn spacing(text: &str) -> Result<f64, String> {
     positive
         .map(|mm| 1e-3 * mm)
         .ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
+}
+
+/// A number of threads, jobs or samples.
+pub(super) fn at_least_one(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "a whole number from 1 on is expected".into())
 }
 
 pub(super) fn weight(text: &str) -> Result<f64, String> {

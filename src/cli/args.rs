@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 
 use clap::{Parser, Subcommand};
 
+use super::arg_values::at_least_one;
 use super::batch_args::{BatchArgs, SampleArgs};
 use super::flatten_args::{DraftArgs, FlattenArgs};
 use super::garment_args::{AlterArgs, CheckArgs, FitArgs, GarmentArgs, OnwardArgs, ReportArgs, StudioArgs, TestArgs};
@@ -37,7 +38,7 @@ pub(super) struct Global {
     #[arg(long, global = true)]
     pub(super) json: bool,
     /// Number of threads (default: all processors), of which 256 at most are started; results do not depend on it
-    #[arg(long, global = true, value_name = "N")]
+    #[arg(long, global = true, value_name = "N", value_parser = at_least_one, allow_negative_numbers = true)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Serve a batch: end when standard input ends, and take no more than so many MiB of memory (0: no limit)
     #[arg(long, value_name = "MIB", hide = true)]

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::arg_values::spacing;
+use super::arg_values::{at_least_one, spacing};
 use super::garment_args::OverrideArgs;
 
 /// Arguments of `batch`.
@@ -17,10 +17,10 @@ pub(super) struct BatchArgs {
     #[arg(short, long, value_name = "STORE")]
     pub(super) output: PathBuf,
     /// Jobs that run side by side, each with the --threads given, or else one [default: all processors]
-    #[arg(short = 'j', long = "jobs", value_name = "N")]
+    #[arg(short = 'j', long = "jobs", value_name = "N", value_parser = at_least_one, allow_negative_numbers = true)]
     pub(super) side_by_side: Option<NonZeroUsize>,
     /// Longest time of a job, such as 90, 90s, 10m or 2h; 'none' sets no limit
-    #[arg(long, value_name = "TIME", default_value = "1h", value_parser = time_limit)]
+    #[arg(long, value_name = "TIME", default_value = "1h", value_parser = time_limit, allow_negative_numbers = true)]
     pub(super) time: TimeLimit,
     /// Most memory of a job, such as 512M or 4G (not on Windows) [default: no limit]
     #[arg(long, value_name = "SIZE", value_parser = mebibytes)]
@@ -82,7 +82,7 @@ pub(super) struct SampleArgs {
     #[arg(value_name = "GARMENT.yaml|FOLDER")]
     pub(super) garments: PathBuf,
     /// Number of jobs
-    #[arg(short = 'n', long, value_name = "N")]
+    #[arg(short = 'n', long, value_name = "N", value_parser = at_least_one, allow_negative_numbers = true)]
     pub(super) count: NonZeroUsize,
     /// The same seed draws the same jobs
     #[arg(long, value_name = "S", default_value_t = 1)]

@@ -140,6 +140,7 @@ fn surface(args: &FlattenArgs, flatten: FlattenOptions, console: &Console) -> Re
         ease: args.ease.unwrap_or_default(),
         limit: limit(args)?,
         flatten,
+        first_number: 1,
     };
     let stem = stem(&args.input);
     let folder = folder(args.output.as_deref(), &stem);

@@ -409,7 +409,9 @@ impl Problem {
             Self::Syntax(why) if why.contains("unknown anchor") => {
                 "a word that begins with * stands in quotation marks: \"*.hem\"".to_owned()
             }
-            Self::Syntax(why) if why.contains("tab") => "YAML indents with spaces; write spaces for the tab".to_owned(),
+            Self::Syntax(why) if why.split_whitespace().any(|word| word == "tab" || word == "tabs") => {
+                "YAML indents with spaces; write spaces for the tab".to_owned()
+            }
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::OneLayer { piece, layer, .. } => format!(

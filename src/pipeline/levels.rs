@@ -57,7 +57,7 @@ impl Job {
     ) -> Result<Closed, SewError> {
         if let Some(coarse) = self.coarser(mesh, watch, &mut |share| progress(COARSE_SHARE * share)) {
             // What does not come out whole begins anew, as it would without a coarser level.
-            if let Some((sewn, gaps)) = self.carried(&coarse, mesh) {
+            if let Some((sewn, gaps)) = self.carried(&coarse, mesh, &mut || progress(COARSE_SHARE)) {
                 let start = coarse.closed.start.as_ref().map(|x| Transfer::new(&coarse.mesh, mesh).apply(x));
                 return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
@@ -145,11 +145,11 @@ impl Job {
     }
 
     /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one. None where it comes out torn or
-    /// crossed.
-    fn carried(&self, coarse: &Coarse, mesh: &ClothMesh) -> Option<(Sewn, Vec<Vec<f64>>)> {
+    /// crossed. `told` is called after every step.
+    fn carried(&self, coarse: &Coarse, mesh: &ClothMesh, told: &mut dyn FnMut()) -> Option<(Sewn, Vec<Vec<f64>>)> {
         let closed = &coarse.closed;
-        let mut sewn =
-            stitch(&self.cut_of(mesh), &self.collider, &coarse.carry(&closed.sewn.nodes, mesh)).ok().flatten()?;
+        let particles = coarse.carry(&closed.sewn.nodes, mesh);
+        let mut sewn = stitch(&self.cut_of(mesh), &self.collider, &particles, told).ok().flatten()?;
         sewn.steps += closed.sewn.steps;
         is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
@@ -229,11 +229,16 @@ mod tests {
     fn a_garment_carried_over_tells_the_gaps_and_the_steps_of_the_one_that_was_sewn() {
         let job = skirt(0.014);
         let mesh = mesh::build(&job.garment, 0.014).expect("meshed");
-        let closed = job.sew_from_coarse(&mesh, &|_| {}, &mut |_| {}).expect("sewn");
+        let mut told = Vec::new();
+        let closed = job.sew_from_coarse(&mesh, &|_| {}, &mut |share| told.push(share)).expect("sewn");
         let coarse = closed.coarse.as_deref().expect("a coarser level");
         assert_eq!(counts(&closed.gaps), pairs(&coarse.mesh));
         assert_eq!(closed.gaps, coarse.closed.sewn.gaps_of_seams(&coarse.mesh));
         assert!(closed.sewn.steps > coarse.closed.sewn.steps, "settling takes steps of its own");
+        // Each is told, so that it can be the last.
+        let own = closed.sewn.steps - coarse.closed.sewn.steps;
+        let settling = told.iter().filter(|share| **share >= COARSE_SHARE).count();
+        assert!(2 * settling > own, "{settling} of {own} steps");
     }
 
     /// At 24 mm the start on the first mesh leaves this sweatshirt cut by a wrist.

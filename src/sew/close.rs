@@ -157,7 +157,8 @@ pub fn sew(
         let tangles = world.tangles().len();
         return Ok(Sewn { stitching, nodes, gaps, steps, tangles, is_cut: false, open: Some(world.x) });
     }
-    let mut sewn = settled(sewn_world(cut, body, &stitching, nodes)?, stitching, gaps, Calm::TO_FALL)?;
+    let world = sewn_world(cut, body, &stitching, nodes)?;
+    let mut sewn = settled(world, stitching, gaps, Calm::TO_FALL, &mut || progress(1.0))?;
     sewn.steps += steps;
     Ok(sewn)
 }
@@ -341,20 +342,31 @@ fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec
 }
 
 /// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie. `None` where
-/// the cloth passes through itself and is not soon led out.
+/// the cloth passes through itself and is not soon led out. `told` is called after every step.
 ///
 /// # Errors
 /// [`SewError`]: a step that cannot be made.
-pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<Sewn>, SewError> {
+pub fn stitch(
+    cut: &Cut,
+    body: &Collider,
+    particles: &[Vec3],
+    told: &mut dyn FnMut(),
+) -> Result<Option<Sewn>, SewError> {
     let stitching = Stitching::new(cut.mesh);
     let gaps = stitching.gaps(particles);
     let world = joined(cut, body, &stitching, particles)?;
-    world.map(|world| settled(world, stitching, gaps, Calm::TO_LIE)).transpose()
+    world.map(|world| settled(world, stitching, gaps, Calm::TO_LIE, told)).transpose()
 }
 
 /// Lets a garment with its seams closed settle.
-fn settled(mut world: World, stitching: Stitching, gaps: Vec<f64>, calm: Calm) -> Result<Sewn, SewError> {
-    let (steps, tangles) = settle(&mut world, calm)?;
+fn settled(
+    mut world: World,
+    stitching: Stitching,
+    gaps: Vec<f64>,
+    calm: Calm,
+    told: &mut dyn FnMut(),
+) -> Result<Sewn, SewError> {
+    let (steps, tangles) = settle(&mut world, calm, told)?;
     let is_cut = world.is_cut();
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, is_cut, open: None })
 }

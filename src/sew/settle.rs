@@ -120,11 +120,12 @@ pub(super) fn joined<'a>(
 }
 
 /// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm` and out of
-/// the body. Returns the steps made and the tangles left.
+/// the body. Returns the steps made and the tangles left. `told` is called after every step, so that whoever waits can
+/// end the work.
 ///
 /// # Errors
 /// As [`World::advance`].
-pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError> {
+pub fn settle(world: &mut World, calm: Calm, told: &mut dyn FnMut()) -> Result<(usize, usize), StepError> {
     let mut steps = untangle(world)?;
     let mut energies = vec![world.energy()];
     let mut trust = TRUST;
@@ -133,6 +134,7 @@ pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError
         trust = step.trust(trust).clamp(LEAST_TRUST, TRUST);
         steps += 1;
         energies.push(world.energy());
+        told();
         if step.moved < STILL || calm.holds(&energies) {
             break;
         }

@@ -30,8 +30,10 @@ def index(store: str | os.PathLike[str], name: str = INDEX) -> list[dict[str, An
     path = Path(store) / name
     try:
         text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; is this the store of a batch?") from error
+    except (OSError, ValueError) as error:
+        # A text that is none, or a name that none can have, is a ValueError.
+        why = error.strerror if isinstance(error, OSError) else error
+        raise InputError(f"{path}: {why}; is this the store of a batch?") from error
     # The end of a line that is just being written is left for the next time.
     *whole, _ = text.split("\n")
     return [_line(path, number, line) for number, line in enumerate(whole, 1)]

@@ -16,7 +16,7 @@ def dumps(value: Any) -> str:
         # A lone surrogate is no text.
         text.encode()
     except (TypeError, ValueError, RecursionError) as error:
-        raise InputError(f"this is no garment, list of measures, readings or job: {error}") from error
+        raise InputError(f"what is given holds a value that no file can hold: {error}") from error
     return text
 
 

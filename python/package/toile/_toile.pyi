@@ -192,6 +192,11 @@ class Fit:
     def in_bounds(self) -> bool:
         """Whether the garment fits as it is wanted (exit code 0 of ``toile fit``, otherwise 1)."""
 
+    @property
+    def _state(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(*state: Any) -> Fit: ...
+
 class Result:
     """A garment as it was sewn, draped and laid flat: n vertices, m triangles. Every array is a copy."""
 
@@ -245,6 +250,11 @@ class Result:
 
     def save(self, folder: _Path) -> None:
         """Writes the files of ``toile make``, whole or not at all: the same bytes, but for times in the report."""
+
+    @property
+    def _state(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(*state: Any) -> Result: ...
 
 class Body:
     """A mannequin, or a body of one's own: n vertices, m triangles."""
@@ -396,6 +406,11 @@ class Flat:
     def save(self, folder: _Path) -> None:
         """Writes the files of ``toile flatten``, whole or not at all."""
 
+    @property
+    def _state(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(*state: Any) -> Flat: ...
+
 def flatten(
     vertices: NDArray[np.floating[Any]] | Sequence[Sequence[float]],
     faces: NDArray[np.integer[Any]] | Sequence[Sequence[int]],
@@ -412,7 +427,8 @@ def flatten(
 
     Args:
         vertices: Shape (n, 3): positions.
-        faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
+        faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside. Messages, notes and the
+            report number vertices and faces as these arrays do, from 0; the command ``toile flatten`` does from 1.
         mode: What to keep where not everything can be kept.
         units: Unit of the positions; None guesses it from the size.
         up: Direction that lies along the grain (y, or z where the surface runs along z).

@@ -1,16 +1,16 @@
 //! `import garmentcode`
 
-use super::{Imported, KnownSeams, finish, text};
+use super::{Imported, KnownSeams, finish};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
 use crate::cli::import_args::GarmentcodeArgs;
 use crate::io::body::floor_of;
-use crate::io::garmentcode::{Wearer, read};
+use crate::io::garmentcode::{Wearer, read, text_of};
 
 /// `toile import garmentcode SPEC.json -o GARMENT.yaml`
 pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, CliError> {
     let refused = |reason: String| CliError::Import { file: args.spec.display().to_string(), reason };
-    let text = text(&args.spec).map_err(refused)?;
+    let text = text_of(&args.spec).map_err(refused)?;
     let stem = args.spec.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let name = stem.strip_suffix("_specification").unwrap_or(&stem);
     let body = super::body(args.body.as_deref(), &args.target.output);

@@ -11,7 +11,6 @@ use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::import_args::{ImportCommand, SvgUnitArg, TargetArgs};
-use crate::input::bytes;
 use crate::io::files::{check_writable, relative, write_all};
 use crate::io::garment::{EncodeError, write, write_with_offers};
 use crate::mannequin;
@@ -25,15 +24,6 @@ pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit,
         ImportCommand::Svg { common, units } => drawing::svg(common, units.map(SvgUnitArg::metres), console),
         ImportCommand::Dxf { common, units } => drawing::dxf(common, units.map(UnitArg::metres), console),
     }
-}
-
-/// Patterns of more bytes than this are none.
-const LARGEST: u64 = 64 << 20;
-
-/// The text of a pattern.
-fn text(path: &Path) -> Result<String, String> {
-    let bytes = bytes(path, LARGEST).map_err(|e| e.to_string())?;
-    String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
 }
 
 /// How a garment file written to `output` names a body that the user named from here: relative to the file, as far as

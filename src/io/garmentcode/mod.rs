@@ -26,7 +26,10 @@ mod spec;
 
 pub use error::ImportError;
 
+use std::path::Path;
+
 use crate::geometry::MM;
+use crate::input::bytes;
 use crate::pattern::GarmentFile;
 use spec::Specification;
 
@@ -37,6 +40,18 @@ pub struct Wearer<'a> {
     pub body: Option<&'a str>,
     /// Height of the floor that it stands on in its own file, metres: the specification counts heights as that does.
     pub floor: f64,
+}
+
+/// Bytes of a specification: a garment of hundreds of panels. Larger files are none.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// The text of a specification's file.
+///
+/// # Errors
+/// Why it cannot be read: the system's reason, a folder or a pipe, too many bytes, bytes that are no text.
+pub fn text_of(path: &Path) -> Result<String, String> {
+    let bytes = bytes(path, LARGEST_FILE).map_err(|e| e.to_string())?;
+    String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
 }
 
 /// Reads a specification as a garment file called `name`, to be worn by `wearer`.

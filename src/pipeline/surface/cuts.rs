@@ -185,7 +185,15 @@ fn next_opening(part: &SurfacePart) -> Option<Vec<SurfacePoint>> {
     };
     let closed = ways.iter().filter(|way| opens(way)).cloned().chain(rings(&ways));
     let way = closed.min_by(|a, b| length(part, a).total_cmp(&length(part, b)))?;
-    Some(straight_inside(part, &way))
+    let line = straight_inside(part, &way);
+    // A slit along one edge opens nothing: both of its ends stay closed.
+    let is_shut = line.len() < 3 && is_slit(&way);
+    Some(if is_shut { along(&way) } else { line })
+}
+
+/// The line along a chain of a part's vertices.
+fn along(chain: &[u32]) -> Vec<SurfacePoint> {
+    chain.iter().map(|&v| SurfacePoint::Vertex(v)).collect()
 }
 
 /// The closed ways that two ways between the same ends make.
@@ -212,7 +220,7 @@ pub(super) fn straight_inside(part: &SurfacePart, chain: &[u32]) -> Vec<SurfaceP
     let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();
     let on_rim = |spot: &SurfacePoint| matches!(spot, SurfacePoint::Vertex(v) if rim.contains(v));
     let is_clear = line.len() < 3 || !line[1..line.len() - 1].iter().any(on_rim);
-    if is_clear { line } else { chain.iter().map(|&v| SurfacePoint::Vertex(v)).collect() }
+    if is_clear { line } else { along(chain) }
 }
 
 /// The ways along which a part must be cut to become a disk; none for a disk.
@@ -225,7 +233,7 @@ pub(super) fn slit(part: &SurfacePart) -> Vec<u32> {
     slit_from_rim(&part.surface, &part.diagonals)
 }
 
-/// The rims of all parts as edges of the file's vertices, from 1, smaller first.
+/// The rims of all parts as edges of the file's vertices by their numbers, smaller first.
 fn rim_edges(parts: &[SurfacePart]) -> HashSet<[u32; 2]> {
     let of_part = |part: &SurfacePart| {
         let topology = Topology::new(&part.surface.triangles);

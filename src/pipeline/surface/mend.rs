@@ -114,13 +114,14 @@ fn between_parts(faces: &ObjFaces, place: &[u32]) -> Vec<u32> {
     firsts(&mut one, count)
 }
 
-/// Mends the faces of a surface whose vertices are joined like this; says what was mended.
-pub(super) fn mend(faces: &mut ObjFaces, same: &[u32]) -> Vec<String> {
+/// Mends the faces of a surface whose vertices are joined like this; says what was mended. Faces are numbered from
+/// `first_number`.
+pub(super) fn mend(faces: &mut ObjFaces, same: &[u32], first_number: u32) -> Vec<String> {
     let mut notes = Vec::new();
     let mut say = |count: usize, first: Option<usize>, one: &str, several: &str| {
         if let Some(first) = first {
             let what = if count == 1 { one } else { several };
-            notes.push(format!("{count} {what}; the first is face {}", first + 1));
+            notes.push(format!("{count} {what}; the first is face {}", first + first_number as usize));
         }
     };
     let repeated = without_repeated_corners(faces, same);
@@ -292,7 +293,7 @@ mod tests {
         add(&mut faces, &[4, 1, 0]);
         faces.vertices.push(Vec3::new(9.0, 9.0, 9.0));
         let same: Vec<u32> = (0..6).collect();
-        let notes = mend(&mut faces, &same).join("\n");
+        let notes = mend(&mut faces, &same, 1).join("\n");
         assert_eq!(faces.faces[..4], good);
         assert!(faces.faces[4].is_empty() && faces.faces[5].is_empty());
         assert!(notes.contains("1 face has a corner twice") && notes.contains("the first is face 5"), "{notes}");
@@ -310,7 +311,7 @@ mod tests {
         faces.faces[0] = vec![0, 1, 4, 5];
         add(&mut faces, &[0, 5, 4]);
         let same: Vec<u32> = (0..6).collect();
-        let notes = mend(&mut faces, &same);
+        let notes = mend(&mut faces, &same, 1);
         assert_eq!(faces.faces[3], [3, 0, 5, 4]);
         assert!(notes[0].contains("1 face has no area"), "{notes:?}");
     }

@@ -114,6 +114,8 @@ pub struct SurfaceOptions {
     pub limit: Limit,
     /// How to flatten.
     pub flatten: FlattenOptions,
+    /// Number of the first vertex and of the first face in messages and in the report: 1 as in an OBJ, 0 as in arrays.
+    pub first_number: u32,
 }
 
 impl Default for SurfaceOptions {
@@ -132,6 +134,7 @@ impl Default for SurfaceOptions {
             ease: Ease::default(),
             limit: Limit::Strain(0.1),
             flatten: FlattenOptions::default(),
+            first_number: 1,
         }
     }
 }
@@ -238,7 +241,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     let space = Space::new(unit, up);
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
     let same = welded(&faces, options.weld, space.metres);
-    notes.extend(mend(&mut faces, &same));
+    notes.extend(mend(&mut faces, &same, options.first_number));
     notes.extend(leave_outer_sides(&mut faces, &same, space.metres, &stem));
     if let Some(tolerance) = options.simplify {
         notes.push(simplify(&mut faces, &same, space.metres, tolerance));
@@ -246,6 +249,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     let source = LayingInput { file, options };
     notes.extend(welded_note(&faces, options.weld, &same));
     let mut sheet = CutFaces::new(faces, same, textured, space, &stem);
+    sheet.first_number = options.first_number;
     let as_read = sheet.parts();
     notes.extend(split_notes(&sheet, options.weld, as_read.len()));
     cut_as_asked(&source, &mut sheet, as_read)?;

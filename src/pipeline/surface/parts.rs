@@ -23,6 +23,8 @@ pub(super) struct SurfacePart {
     pub(super) faces: Vec<u32>,
     /// The face of the file that each is of.
     origins: Vec<u32>,
+    /// Number of the first vertex and of the first face in messages and reports.
+    first_number: u32,
     /// Corners of each of these, as vertices of the part.
     pub(super) corners: Rows,
     /// Edges of the surface that are inside a polygon of the file.
@@ -92,9 +94,9 @@ fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
 pub(super) fn parts(sheet: &CutFaces, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<SurfacePart> {
-    let CutFaces { faces, nodes, origin, .. } = sheet;
+    let CutFaces { faces, nodes, origin, first_number, .. } = sheet;
     let fans = Fans::new(nodes, cuts);
-    let source = PartSource { faces, nodes, origin, fans: &fans, space };
+    let source = PartSource { faces, nodes, origin, fans: &fans, space, first_number: *first_number };
     let mut local = vec![0; fans.of_corner.len()];
     let mut parts: Vec<SurfacePart> = Vec::new();
     let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
@@ -125,6 +127,7 @@ struct PartSource<'a> {
     origin: &'a [u32],
     fans: &'a Fans,
     space: Space,
+    first_number: u32,
 }
 
 /// Which corners are one vertex, and which faces one part.
@@ -172,7 +175,7 @@ impl Fans {
 impl SurfacePart {
     /// `local` has room for every fan; a part uses its own places only.
     fn new(source: &PartSource<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
-        let PartSource { faces, nodes, origin, fans, space } = *source;
+        let PartSource { faces, nodes, origin, fans, space, first_number } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
         let mut all: Vec<(u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
@@ -196,7 +199,7 @@ impl SurfacePart {
         let diagonals = both.flat_map(|(polygon, triangles)| diagonals_of(polygon, triangles)).collect();
         let surface = TriMesh { vertices: positions, triangles };
         let origins = own.iter().map(|&f| origin[f as usize]).collect();
-        Self { name, vertices, faces: own, origins, corners, diagonals, surface, turned }
+        Self { name, vertices, faces: own, origins, first_number, corners, diagonals, surface, turned }
     }
 
     /// The face that a triangle is of, its number among that face's triangles, and the weights of its corners in the
@@ -214,9 +217,9 @@ impl SurfacePart {
         (self.faces[face], triangle - first, own.map(of))
     }
 
-    /// The file's number of a vertex, from 1.
+    /// The file's number of a vertex.
     pub(super) fn number(&self, vertex: u32) -> u32 {
-        self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
+        self.vertices.get(vertex as usize).map_or(0, |v| v + self.first_number)
     }
 
     /// The note on faces that were turned.
@@ -230,7 +233,7 @@ impl SurfacePart {
             done = own.end;
             is_turned[own].contains(&true)
         });
-        let mut faces: Vec<usize> = turned.map(|(f, _)| *f as usize + 1).collect();
+        let mut faces: Vec<usize> = turned.map(|(f, _)| (*f + self.first_number) as usize).collect();
         faces.dedup();
         let mut all = self.origins.clone();
         all.dedup();
@@ -240,7 +243,7 @@ impl SurfacePart {
         Some(format!("'{}': {said}; the first is face {first}", self.name))
     }
 
-    /// The file's number of the face a triangle is of, from 1.
+    /// The file's number of the face a triangle is of.
     fn face_of(&self, triangle: usize) -> usize {
         let mut first = 0;
         let counts = self.corners.iter().map(|c| c.len() - 2);
@@ -250,7 +253,7 @@ impl SurfacePart {
                 first <= triangle
             })
             .count();
-        self.origins.get(face).map_or(0, |f| *f as usize + 1)
+        self.origins.get(face).map_or(0, |f| (f + self.first_number) as usize)
     }
 
     /// An error in the file's numbers.

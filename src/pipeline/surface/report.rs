@@ -14,7 +14,8 @@ use crate::flatten::FlattenError;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
-/// The result of flattening a surface, written as `report.json`.
+/// The result of flattening a surface, written as `report.json`. Vertices have their numbers of the file, from
+/// [`SurfaceOptions::first_number`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceReport {
     /// Version of this program.
@@ -29,7 +30,7 @@ pub struct SurfaceReport {
     pub pieces: Vec<PartReport>,
     /// The parts that could not be laid flat, of which the files have nothing.
     pub failed: Vec<FailedReport>,
-    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
+    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices.
     pub cuts: Vec<Vec<u32>>,
     /// A row for each of these: what it is, and how long.
     pub cuts_made: Vec<CutReport>,
@@ -154,7 +155,7 @@ pub struct StrainReport {
 pub struct EdgeReport {
     /// Its number along the rim.
     pub name: String,
-    /// The file's vertices at its ends, from 1.
+    /// The file's vertices at its ends.
     pub ends: [u32; 2],
     /// Length in space, mm.
     pub length_draped: f64,
@@ -208,7 +209,7 @@ pub struct ThreadReport {
     pub shear: f64,
     /// The largest, degrees.
     pub shear_max: f64,
-    /// The file's vertex where that is, from 1.
+    /// The file's vertex where that is.
     pub shear_at: u32,
 }
 
@@ -219,9 +220,9 @@ pub struct CutReport {
     pub piece: String,
     /// The purpose.
     pub why: CutWhy,
-    /// The file's vertex at its start, from 1.
+    /// The file's vertex at its start.
     pub from: u32,
-    /// The file's vertex at its end, from 1.
+    /// The file's vertex at its end.
     pub to: u32,
     /// Length, mm.
     pub length: f64,
@@ -264,9 +265,9 @@ impl std::fmt::Display for CutReport {
 /// A way from rim to rim.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HalvingReport {
-    /// The file's vertex at its start, from 1.
+    /// The file's vertex at its start.
     pub from: u32,
-    /// The file's vertex at its end, from 1.
+    /// The file's vertex at its end.
     pub to: u32,
     /// Length, mm.
     pub length: f64,
@@ -275,9 +276,9 @@ pub struct HalvingReport {
 /// A dart, from the rim to its tip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DartReport {
-    /// The file's vertex on the rim, from 1.
+    /// The file's vertex on the rim.
     pub rim: u32,
-    /// The file's vertex at the tip, from 1.
+    /// The file's vertex at the tip.
     pub tip: u32,
     /// Length, mm.
     pub length: f64,

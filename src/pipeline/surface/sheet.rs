@@ -25,9 +25,11 @@ pub(super) struct CutFaces {
     pub(super) space: Space,
     /// Name of what has none.
     stem: String,
+    /// Number of the first vertex and of the first face in messages and reports.
+    pub(super) first_number: u32,
     /// Edges that are cut: the vertices that stand for their ends, the smaller first.
     pub(super) edges: HashSet<[u32; 2]>,
-    /// The cuts as chains of vertices, from 1.
+    /// The cuts as chains of vertices, by their numbers.
     pub(super) chains: Vec<Vec<u32>>,
     /// A row for each of these.
     pub(super) made: Vec<CutReport>,
@@ -48,6 +50,7 @@ impl CutFaces {
             textured,
             space,
             stem: stem.to_owned(),
+            first_number: 1,
             edges: HashSet::new(),
             chains: Vec::new(),
             made: Vec::new(),
@@ -116,8 +119,9 @@ impl CutFaces {
     fn open(&mut self, piece: String, why: CutWhy, chain: Vec<u32>, length: f64) {
         self.edges.extend(chain.windows(2).map(|w| sorted_pair([w[0], w[1]])));
         if let [from, .., to] = *chain {
-            self.made.push(CutReport { piece, why, from: from + 1, to: to + 1, length, strain: None });
-            self.chains.push(chain.iter().map(|v| v + 1).collect());
+            let number = |v: u32| v + self.first_number;
+            self.made.push(CutReport { piece, why, from: number(from), to: number(to), length, strain: None });
+            self.chains.push(chain.iter().map(|&v| number(v)).collect());
         }
     }
 
@@ -125,7 +129,7 @@ impl CutFaces {
     pub(super) fn close(&mut self, number: usize) {
         self.made.remove(number);
         for ends in self.chains.remove(number).windows(2) {
-            self.edges.remove(&sorted_pair([ends[0] - 1, ends[1] - 1]));
+            self.edges.remove(&sorted_pair([ends[0] - self.first_number, ends[1] - self.first_number]));
         }
     }
 
@@ -140,7 +144,7 @@ impl CutFaces {
                 chain.insert(k + 1, by + first);
             }
         };
-        self.chains.iter_mut().for_each(|chain| through(chain, 1));
+        self.chains.iter_mut().for_each(|chain| through(chain, self.first_number));
         self.planned.iter_mut().for_each(|(_, chain)| through(chain, 0));
     }
 

@@ -97,7 +97,7 @@ impl Stance {
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
         sewn.steps += carrier.carry(&mut world, -last)?;
-        let (steps, tangles) = settle(&mut world, Calm::TO_FALL)?;
+        let (steps, tangles) = settle(&mut world, Calm::TO_FALL, &mut || progress(1.0))?;
         let is_cut = world.is_cut();
         Ok(Sewn { nodes: world.x, tangles, is_cut, steps: sewn.steps + steps, ..sewn })
     }
