@@ -260,12 +260,12 @@ impl WornOpenings<'_> {
             (torso.station(torso.length()).center.y, length)
         });
         from_shoulders
-            .or_else(|| self.from_nape(k, torso, top))
+            .or_else(|| self.below_nape(k, torso, top))
             .unwrap_or_else(|| (seat.station.center.y, self.median(k, top)))
     }
 
     /// The same of a halter, from the nape: its strap goes a quarter of the way round the neck before it goes down.
-    fn from_nape(&self, k: usize, torso: &Axis, top: usize) -> Option<(f64, f64)> {
+    fn below_nape(&self, k: usize, torso: &Axis, top: usize) -> Option<(f64, f64)> {
         self.find(Ends::ARMS)?;
         let nape = self.openings[top].rim.iter().map(|n| self.far[k][*n as usize]).fold(0.0, f64::max);
         let neck = torso.length();
