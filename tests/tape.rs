@@ -18,6 +18,9 @@ const CLOSE: f64 = 1.0;
 /// Cloth whose ends are nearer than this is sewn together, mm: gaps of seams are smaller.
 const SEWN: f64 = 1.2;
 
+/// Ends nearer than this, mm, are one point of an edge between two triangles.
+const SAME: f64 = 1e-6;
+
 /// A point of a cut, mm, in a frame of the plane round the part's middle.
 type Flat = [f64; 2];
 
@@ -66,20 +69,25 @@ fn root(parent: &mut [usize], mut k: usize) -> usize {
     k
 }
 
-/// Segments that hang together, ends nearer than `SEWN` being joined.
+/// Segments that hang together. An end at the edge of a piece is joined to cloth nearer than `SEWN`; cloth that touches
+/// cloth between its edges, as a sleeve does the trunk, is not.
 fn strands(segments: &[[Flat; 2]]) -> Vec<Vec<[Flat; 2]>> {
     let cell = |p: Flat| p.map(|x| (x / SEWN).floor() as i64);
     let mut near: HashMap<[i64; 2], Vec<(usize, Flat)>> = HashMap::new();
     for (k, segment) in segments.iter().enumerate() {
         segment.iter().for_each(|&p| near.entry(cell(p)).or_default().push((k, p)));
     }
+    let around = |p: Flat| {
+        let [x, y] = cell(p);
+        let cells = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+        cells.filter_map(|c| near.get(&c)).flatten().filter(move |(_, q)| far(p, *q) < SEWN)
+    };
+    let is_edge = |k: usize, p: Flat| around(p).all(|&(other, q)| other == k || far(p, q) >= SAME);
     let mut parent: Vec<usize> = (0..segments.len()).collect();
     for (k, segment) in segments.iter().enumerate() {
         for &p in segment {
-            let [x, y] = cell(p);
-            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-            for &(other, q) in around.filter_map(|c| near.get(&c)).flatten() {
-                if far(p, q) < SEWN {
+            for &(other, q) in around(p) {
+                if far(p, q) < SAME || is_edge(k, p) || is_edge(other, q) {
                     let (a, b) = (root(&mut parent, k), root(&mut parent, other));
                     parent[a] = b;
                 }
