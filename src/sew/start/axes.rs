@@ -242,19 +242,27 @@ impl Axes {
 }
 
 #[cfg(test)]
+impl Axes {
+    /// A trunk alone, 1 m high on the floor, with these half extents sideways and front to back, metres.
+    pub(super) fn of_cylinder(half: [f64; 2]) -> Self {
+        let section = |k: u32| Section {
+            center: Vec3::new(0.0, 0.05 * f64::from(k), 0.0),
+            axis: Vec3::y(),
+            half_width: half[0],
+            half_depth: half[1],
+            girth: 1.0,
+        };
+        let sections = (0..=20).map(section).collect();
+        Self::of_parts(&[BodyPart { kind: PartKind::Torso, sections, landmarks: Vec::new() }])
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
     fn cylinder() -> Axis {
-        let section = |y: f64| Section {
-            center: Vec3::new(0.0, y, 0.0),
-            axis: Vec3::y(),
-            half_width: 0.2,
-            half_depth: 0.1,
-            girth: 1.0,
-        };
-        let sections = (0..=20).map(|k| section(0.05 * f64::from(k))).collect();
-        Axis::of(&BodyPart { kind: PartKind::Torso, sections, landmarks: Vec::new() }).expect("an axis")
+        Axes::of_cylinder([0.2, 0.1]).axes.swap_remove(0)
     }
 
     #[test]

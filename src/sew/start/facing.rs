@@ -35,19 +35,6 @@ fn turn(from: Vec3, to: Vec3) -> Option<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mannequin::{BodyPart, PartKind, Section};
-
-    fn trunk() -> Axes {
-        let section = |y: f64| Section {
-            center: Vec3::new(0.0, y, 0.0),
-            axis: Vec3::y(),
-            half_width: 0.1,
-            half_depth: 0.1,
-            girth: 0.63,
-        };
-        let sections = (0..=20).map(|k| section(0.05 * f64::from(k))).collect();
-        Axes::of_parts(&[BodyPart { kind: PartKind::Torso, sections, landmarks: Vec::new() }])
-    }
 
     #[test]
     fn a_triangle_turns_until_it_faces_outward() {
@@ -56,7 +43,7 @@ mod tests {
         let normal = |x: &[Vec3]| (x[2] - x[0]).cross(&(x[1] - x[0])).normalize();
         assert!(normal(&x).x.abs() < 1e-12);
         for _ in 0..200 {
-            let way = turned(&x, &[[0, 1, 2]], &[1.0], &trunk());
+            let way = turned(&x, &[[0, 1, 2]], &[1.0], &Axes::of_cylinder([0.1, 0.1]));
             assert!(way.iter().sum::<Vec3>().norm() < 1e-12);
             x.iter_mut().zip(way).for_each(|(x, way)| *x += way);
         }
@@ -66,6 +53,8 @@ mod tests {
     #[test]
     fn what_is_inflated_is_not_turned() {
         let x = [[0.2, 0.5, 0.0], [0.2, 0.52, 0.0], [0.22, 0.5, 0.0]].map(Vec3::from);
-        assert!(turned(&x, &[[0, 1, 2]], &[0.0], &trunk()).iter().all(|way| *way == Vec3::zeros()));
+        assert!(
+            turned(&x, &[[0, 1, 2]], &[0.0], &Axes::of_cylinder([0.1, 0.1])).iter().all(|way| *way == Vec3::zeros())
+        );
     }
 }

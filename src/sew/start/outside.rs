@@ -39,23 +39,10 @@ fn crossed(from: Vec3, to: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mannequin::{BodyPart, PartKind, Section};
 
     #[test]
     fn an_outer_layer_is_put_over_an_inner_one() {
-        let section = |y: f64| Section {
-            center: Vec3::new(0.0, y, 0.0),
-            axis: Vec3::y(),
-            half_width: 0.1,
-            half_depth: 0.1,
-            girth: 0.63,
-        };
-        let part = BodyPart {
-            kind: PartKind::Torso,
-            sections: (0..=20).map(|k| section(0.05 * f64::from(k))).collect(),
-            landmarks: Vec::new(),
-        };
-        let axes = Axes::of_parts(&[part]);
+        let axes = Axes::of_cylinder([0.1, 0.1]);
         let wall = |z: f64| [[-1.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.5, z]].map(Vec3::from);
         let mut nodes: Vec<Vec3> =
             wall(0.3).into_iter().chain([[0.0, 0.5, 0.25], [0.0, 0.5, -0.25]].map(Vec3::from)).collect();
