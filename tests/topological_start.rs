@@ -8,7 +8,7 @@ use toile::io::garment::read_text;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::ContactReport;
 use toile::sew::Stitching;
-use toile::sew::start::{glue, start};
+use toile::sew::start::{glue, guess, openings, start};
 
 /// The start's own spacing, metres: nothing is lost on the way to the mesh asked for.
 const SPACING: f64 = 0.025;
@@ -266,4 +266,60 @@ fn straps_that_cross_at_the_back_lie_over_the_shoulders() {
     assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
     assert_eq!(report.contact, ContactReport::default());
     assert!(report.closures.iter().all(|c| c.closed && c.turned.is_none()), "{:?}", report.closures);
+}
+
+/// A skirt of two equal pieces whose side seams end above the hem, with a vent in the hem, so wide at its mouth.
+fn slit_skirt(vent: f64) -> Job {
+    let text = format!(
+        "garment: 1
+name: skirt
+body: woman_92
+fabrics: {{shell: cotton_poplin}}
+pieces:
+  front:
+    place: hip front
+    outline:
+      start: -200 0
+      waist: L 200 0
+      right: L 240 300
+      right_slit: L 265 490
+      hem_1: L {half} 490
+      vent_1: L 0 300
+      vent_2: L -{half} 490
+      hem_2: L -265 490
+      left_slit: L -240 300
+      left: L -200 0
+  back: {{like: front, place: hip back}}
+seams:
+  left: {{sew: front.right, to: back.left}}
+  right: {{sew: front.left, to: back.right}}
+free: ['*.waist', '*.hem_1', '*.hem_2', '*.vent_1', '*.vent_2', '*.right_slit', '*.left_slit']
+",
+        half = vent / 2.0
+    );
+    let garment = read_text("skirt", "skirt.yaml", &text).expect("a garment");
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    Job::new(Path::new("skirt.yaml"), garment, &overrides).expect("a job")
+}
+
+#[test]
+fn slits_of_a_hem_start_closed_and_wide_ones_open() {
+    for (vent, slits) in [(10.0, 4), (45.0, 4), (120.0, 2)] {
+        let job = slit_skirt(vent);
+        let glued = glue(&job.garment, &job.mesh, &[]);
+        let dealing = guess(&job.garment, &job.mesh, &glued, &openings(&glued, &job.mesh), &job.body);
+        let flat = |p: u32| job.mesh.flat[p as usize];
+        for [a, b] in &dealing.zips {
+            assert!((flat(*a).y - flat(*b).y).abs() < 1e-3, "{vent} mm: {:?} and {:?}", flat(*a), flat(*b));
+        }
+        let at_hem = dealing.zips.iter().filter(|[a, _]| flat(*a).y > 0.485).count();
+        assert_eq!(at_hem, slits, "{vent} mm: slits closed as far as the hem");
+        let closed = openings(&glue(&job.garment, &job.mesh, &dealing.zips), &job.mesh);
+        assert_eq!(closed.len(), 2, "{vent} mm: waist and hem");
+    }
+}
+
+#[test]
+fn a_skirt_with_slits_is_sewn() {
+    is_sewn_round(&slit_skirt(10.0), &["legs", "torso"]);
 }

@@ -225,7 +225,7 @@ impl<'a> Wear<'a> {
     }
 
     /// Whether the part of the garment with this opening is round the neck or an arm: then its pattern alone decides
-    /// how far down a band reaches.
+    /// how far down a band reaches, and how high up a skirt begins.
     fn hangs_from_shoulders(&self, k: usize) -> bool {
         let holds = |part: PartKind| part == PartKind::Neck || part.is_arm();
         self.together(k).any(|j| matches!(self.now[j].passage.through, Some(Through::Part(part)) if holds(part)))
@@ -253,6 +253,7 @@ impl<'a> Wear<'a> {
             let [low, high] = range_of(heights.map(|v| self.welded.surface.vertices[v].y));
             let text = match (level, bust) {
                 (TrunkLevel::Waist, _) if high < waist - AT_WAIST && self.hangs_from_shoulders(k) => continue,
+                (TrunkLevel::Hip, _) if self.hangs_from_shoulders(k) => continue,
                 (TrunkLevel::Waist, _) if low > waist + AT_WAIST || high < waist - AT_WAIST => {
                     let off = (if high < waist { waist - high } else { low - waist }) * MM;
                     let side = if high < waist { "below" } else { "above" };

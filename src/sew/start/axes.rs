@@ -15,6 +15,10 @@ const SPACING: f64 = 0.06;
 /// step carries a node through it. With 4 mm the fronts of trousers ended behind the legs.
 const THINNEST: f64 = 0.02;
 
+/// An arm's axis begins where the arm leaves the trunk. The shoulder joint lies further in by this share of its width.
+/// Raised about its beginning, an arm was grown through the cloth under it.
+const TO_JOINT: f64 = 0.75;
+
 /// A cross-section.
 #[derive(Clone, Copy, Debug)]
 struct Disk {
@@ -33,7 +37,7 @@ pub(super) struct Axis {
     /// The part.
     pub(super) kind: PartKind,
     disks: Vec<Disk>,
-    /// Distance along the axis from its first disk, metres.
+    /// Distance along the axis from where the part begins, metres. That of a shoulder joint is negative.
     along: Vec<f64>,
     /// Places that have a name in lower case.
     landmarks: Vec<(String, Vec3)>,
@@ -68,12 +72,12 @@ impl Axis {
             kept.push(last);
         }
         let landmarks = part.landmarks.iter().map(|(name, at)| (name.to_lowercase(), *at)).collect();
-        Self::new(part.kind, kept.into_iter().map(disk).collect(), landmarks)
+        Self::new(part.kind, kept.into_iter().map(disk).collect(), 0.0, landmarks)
     }
 
-    /// Of disks, if there are two at least.
-    fn new(kind: PartKind, disks: Vec<Disk>, landmarks: Vec<(String, Vec3)>) -> Option<Self> {
-        let mut along = vec![0.0];
+    /// Of disks, the first at this place along the axis, if there are two at least.
+    fn new(kind: PartKind, disks: Vec<Disk>, first: f64, landmarks: Vec<(String, Vec3)>) -> Option<Self> {
+        let mut along = vec![first];
         for pair in disks.windows(2) {
             along.push(along.last().copied().unwrap_or(0.0) + (pair[1].center - pair[0].center).norm());
         }
@@ -83,16 +87,21 @@ impl Axis {
         (disks.len() > 1).then_some(Self { kind, disks, along, landmarks, low, high })
     }
 
-    /// It turned about its beginning by this share of the way to straight sideways.
+    /// An arm from its joint on, turned about that by this share of the way to straight sideways. Places along it are
+    /// those of the arm that hangs.
     fn raised(&self, share: f64) -> Self {
-        let joint = self.disks[0].center;
+        let first = self.disks[0];
+        let further_in = TO_JOINT * (first.half[0] + first.half[1]);
+        let joint = first.center - self.station(0.0).axis * further_in;
         let reach = self.disks[self.disks.len() - 1].center - joint;
         let sideways = Vec3::x() * reach.x.signum();
         let turn = Rotation3::scaled_rotation_between(&reach, &sideways, share).unwrap_or_else(Rotation3::identity);
         let place = |p: Vec3| joint + turn * (p - joint);
         let turned = |disk: &Disk| Disk { center: place(disk.center), frame: disk.frame.map(|v| turn * v), ..*disk };
         let landmarks = self.landmarks.iter().map(|(name, at)| (name.clone(), place(*at))).collect();
-        Self::new(self.kind, self.disks.iter().map(turned).collect(), landmarks).unwrap_or_else(|| self.clone())
+        let at_joint = Disk { center: joint, ..first };
+        let disks = std::iter::once(&at_joint).chain(&self.disks).map(turned).collect();
+        Self::new(self.kind, disks, -further_in, landmarks).unwrap_or_else(|| self.clone())
     }
 
     /// Its length, metres.
@@ -276,25 +285,32 @@ mod tests {
     }
 
     #[test]
-    fn an_arm_is_raised_about_its_beginning() {
+    fn an_arm_is_raised_about_its_shoulder_joint() {
+        let way = Vec3::new(0.6, -0.8, 0.0);
         let section = |k: u32| Section {
-            center: Vec3::new(0.2, 1.4, 0.0) + Vec3::new(0.6, -0.8, 0.0) * (0.1 * f64::from(k)),
-            axis: Vec3::new(0.6, -0.8, 0.0),
+            center: Vec3::new(0.2, 1.4, 0.0) + way * (0.1 * f64::from(k)),
+            axis: way,
             half_width: 0.05,
-            half_depth: 0.04,
+            half_depth: 0.03,
             girth: 0.28,
         };
         let part = |kind| BodyPart { kind, sections: (0..=6).map(section).collect(), landmarks: Vec::new() };
         let body = Axes::of_parts(&[part(PartKind::LeftArm), part(PartKind::LeftLeg)]);
-        let end = |body: &Axes, kind| body.part(kind).map(|axis| axis.station(axis.length()).center).expect("an axis");
+        let at = |body: &Axes, kind, s: f64| body.part(kind).map(|axis| axis.station(s).center).expect("an axis");
+        let joint = Vec3::new(0.2, 1.4, 0.0) - way * (TO_JOINT * 0.08);
         let raised = body.with_arms_raised(1.0);
-        assert!((end(&raised, PartKind::LeftArm) - Vec3::new(0.8, 1.4, 0.0)).norm() < 1e-12);
-        assert_eq!(end(&raised, PartKind::LeftLeg), end(&body, PartKind::LeftLeg), "legs stay");
-        let half = body.with_arms_raised(0.5);
-        let way = end(&half, PartKind::LeftArm) - Vec3::new(0.2, 1.4, 0.0);
-        assert!((way.norm() - 0.6).abs() < 1e-12);
-        assert!((way.y.atan2(way.x) - 0.5 * (-0.8f64).atan2(0.6)).abs() < 1e-12);
-        assert!((end(&body.with_arms_raised(0.0), PartKind::LeftArm) - Vec3::new(0.56, 0.92, 0.0)).norm() < 1e-12);
+        for s in [0.0, 0.3, 0.6] {
+            let straight = joint + Vec3::x() * (TO_JOINT * 0.08 + s);
+            assert!((at(&raised, PartKind::LeftArm, s) - straight).norm() < 1e-12, "{s}");
+            assert_eq!(at(&raised, PartKind::LeftLeg, s), at(&body, PartKind::LeftLeg, s), "legs stay");
+            let lowered = at(&body.with_arms_raised(0.0), PartKind::LeftArm, s);
+            assert!((lowered - at(&body, PartKind::LeftArm, s)).norm() < 1e-12, "{s}");
+        }
+        let half = at(&body.with_arms_raised(0.5), PartKind::LeftArm, 0.6) - joint;
+        assert!((half.y.atan2(half.x) - 0.5 * (-0.8f64).atan2(0.6)).abs() < 1e-12);
+        // What lies between the trunk and the arm is led out too.
+        assert!(raised.outside(joint + Vec3::new(0.03, 0.01, 0.0), 1.0, 0.0).y > joint.y + 0.02);
+        assert_eq!(raised.part(PartKind::LeftArm).map(Axis::length), body.part(PartKind::LeftArm).map(Axis::length));
     }
 
     #[test]

@@ -73,11 +73,13 @@ pub(super) struct Length {
     pub(super) rest: f64,
 }
 
-/// An opening or a section of a tube that is held while the body grows: its nodes, and where their middle belongs.
+/// An opening or a section of a tube that is held while the body grows.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    /// The nodes.
+    /// The nodes that are moved, all alike.
     pub(super) rim: Vec<u32>,
+    /// Those of them whose middle belongs in the place of `middle`.
+    pub(super) by: Vec<u32>,
     /// Metres.
     pub(super) middle: Vec3,
     /// A unit direction in which it may move freely.
@@ -87,7 +89,7 @@ pub(super) struct Held {
 impl Held {
     /// How far its nodes are to move in one step.
     fn back(&self, p: &[Vec3]) -> Vec3 {
-        let middle = self.rim.iter().map(|n| p[*n as usize]).sum::<Vec3>() / self.rim.len() as f64;
+        let middle = self.by.iter().map(|n| p[*n as usize]).sum::<Vec3>() / self.by.len() as f64;
         let way = self.middle - middle;
         self.along.map_or(way, |along| way - along * way.dot(&along)) * HOLD
     }

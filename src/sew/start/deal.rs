@@ -12,6 +12,7 @@ use super::glue::Glued;
 use super::marks::{self, Mirror, RimStretch};
 use super::openings::GluedOpening;
 use super::sides;
+use super::slit;
 use super::zip;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
@@ -43,7 +44,7 @@ pub struct Dealing {
     pub ends: Vec<Ends>,
     /// For every opening that the trunk or the neck passes through the node of its rim at the front middle, if known.
     pub front: Vec<Option<u32>>,
-    /// Pairs of particles that close open fronts.
+    /// Pairs of particles that close open fronts and slits.
     pub zips: Vec<[u32; 2]>,
     /// By how much the next dealing costs more; the least of all connected parts.
     pub margin: f64,
@@ -114,6 +115,9 @@ pub fn guess(
         sides::settle(&table.wearing(), &own, &mut dealing.ends, &mut dealing.front);
     }
     dealing.zips = zip::zips(&table.wearing(), &dealing.ends);
+    let is_hem = |ends: &Ends| ends.touches(Ends::LEGS) && !ends.has(Ends::HEAD);
+    let hems = openings.iter().zip(&dealing.ends).filter(|(_, ends)| is_hem(ends));
+    dealing.zips.extend(hems.flat_map(|(hem, _)| slit::slits(glued, mesh, hem)));
     dealing
 }
 

@@ -41,7 +41,7 @@ pub struct Glued {
     pub left_out: Vec<usize>,
     /// Where closures hold one piece over another: their rims are welded here, and lie over one another when worn.
     pub laps: Vec<Lap>,
-    /// Pairs of particles of open fronts, which are welded for the start alone.
+    /// Pairs of particles of open fronts and slits, which are welded for the start alone.
     pub zips: Vec<[u32; 2]>,
     /// The ends of crossed straps, which are welded side by side for the start alone.
     pub crossed: Vec<CrossedEnd>,

@@ -70,7 +70,7 @@ impl ParticleLaying {
         }
     }
 
-    /// Draws the two sides of open fronts apart, each into its own cloth and with all that is sewn to it.
+    /// Draws the two sides of open fronts and slits apart, each into its own cloth and with all that is sewn to it.
     fn unzip(&mut self, mesh: &ClothMesh, glued: &Glued) {
         let class = Stitching::new(mesh).class;
         let class = |p: u32| class[p as usize] as usize;

@@ -38,6 +38,7 @@ mod rings;
 mod sections;
 mod sides;
 mod sketch;
+mod slit;
 mod star;
 mod surface;
 mod unfold;
@@ -64,7 +65,7 @@ use crate::contact::Collider;
 use crate::geometry::{DisjointSets, MM, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
-use crate::pattern::{Garment, PlaceWord};
+use crate::pattern::{Garment, PlaceWord, TrunkLevel};
 use crate::sew::place::PlaceError;
 use axes::Axes;
 use balloon::{Balloon, Held, Length};
@@ -239,7 +240,7 @@ impl Dealt {
     fn inflated(&self, mesh: &ClothMesh, film: OnFilm, axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let bending = surface::bending(&self.glued, mesh);
         let piece = |source: &u32| mesh.piece_of(mesh.triangles[*source as usize][0]).unwrap_or(0) as u32;
-        let of_ring = |of: &PartRing| Held { rim: of.ring.rim.clone(), middle: of.ring.center, along: None };
+        let of_ring = |of: &PartRing| film.worn[of.part as usize].held(of.ends, &of.ring);
         // A strap lies where the cloth round the arm lets it, which is not known: only sleeves are held.
         let is_held = |of: &&PartRing| !limb_of(of.ends).is_some_and(PartKind::is_arm) || of.ring.along > Some(FIRST);
         let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring].ring, limb));
@@ -303,7 +304,7 @@ impl Dealt {
                 flat: &mesh.flat,
                 words: self.words(garment, mesh, part),
                 above: own.iter().map(|&k| self.above(mesh, &cloth, k)).collect(),
-                rim_words: own.iter().map(|&k| self.rim_words(garment, mesh, k)).collect(),
+                levels: own.iter().map(|&k| self.levels_on_rim(garment, mesh, k)).collect(),
                 openings: own.iter().map(|&k| &self.openings[k]).collect(),
                 ends: own.iter().map(|&k| self.dealing.ends[k]).collect(),
                 front: own.iter().map(|&k| self.dealing.front[k]).collect(),
@@ -391,11 +392,11 @@ impl Dealt {
         nodes.iter().all(|n| sets.same(first, *n))
     }
 
-    /// The words of `place` of the pieces on the rim of an opening.
-    fn rim_words(&self, garment: &Garment, mesh: &ClothMesh, k: usize) -> Vec<&'static str> {
+    /// The heights on the trunk that `place` gives the pieces on the rim of an opening.
+    fn levels_on_rim(&self, garment: &Garment, mesh: &ClothMesh, k: usize) -> Vec<TrunkLevel> {
         let pieces = self.openings[k].sides.iter().filter_map(|side| mesh.piece_of(side[0]));
         let distinct: BTreeSet<usize> = pieces.collect();
-        distinct.into_iter().flat_map(|piece| marks::words(garment, piece)).map(PlaceWord::name).collect()
+        distinct.into_iter().flat_map(|piece| marks::words(garment, piece)).filter_map(PlaceWord::level).collect()
     }
 
     /// The words of `place` of the pieces of a connected part.

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::axes::{Axes, Axis, AxisPlace};
+use super::balloon::Held;
 use super::ends::Ends;
 use super::harmonic::OpeningRing;
 use super::openings::GluedOpening;
@@ -10,7 +11,7 @@ use super::profile::{Profile, best_height};
 use super::winding::{Jumps, jumps};
 use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::PartKind;
-use crate::pattern::PlaceWord;
+use crate::pattern::{PlaceWord, TrunkLevel};
 
 /// A neck's ring lies so far above the base of the neck, metres.
 pub(super) const ABOVE_NECK: f64 = 0.02;
@@ -23,7 +24,8 @@ const BEYOND: f64 = 0.08;
 /// goes straight and below the shoulder, which then grows through it: of two shirts 233 and 518 triangles started
 /// through the body, and 52 and none with this slack.
 const SLACK: f64 = 0.04;
-/// The top of a garment that is placed by the waist lies no further from the waist than this, metres.
+/// The top of a garment that is placed by the waist lies no further from the waist than this, metres, and that of one
+/// that is placed by the trunk at least so far above it.
 const AT_WAIST: f64 = 0.05;
 /// From between the legs a garment goes as far as this share of the trunk's half depth to the front before it rises.
 const TO_FRONT: f64 = 1.0;
@@ -60,8 +62,8 @@ pub(super) struct WornOpenings<'a> {
     pub(super) above: Vec<Option<Vec<f64>>>,
     /// The words that say where its pieces go.
     pub(super) words: Vec<&'static str>,
-    /// For each opening the words of the pieces on its rim.
-    pub(super) rim_words: Vec<Vec<&'static str>>,
+    /// For each opening the heights on the trunk where the pieces on its rim go.
+    pub(super) levels: Vec<Vec<TrunkLevel>>,
     /// For each opening the girth of the cloth at distances from it.
     pub(super) profiles: Vec<Profile>,
 }
@@ -130,6 +132,21 @@ impl WornOpenings<'_> {
         Some(Neckline { shoulders: [shoulder(Ends::LEFT_ARM)?, shoulder(Ends::RIGHT_ARM)?], rim: rim.clone() })
     }
 
+    /// How the opening that these ends pass through is held: by its middle, in that of its `ring`; where the garment
+    /// hangs from the shoulders, its neckline by these. The middle of a steep neckline lies far below them, and held by
+    /// it a dress with straps was drawn down beside the shoulders.
+    pub(super) fn held(&self, ends: Ends, ring: &OpeningRing) -> Held {
+        let top = self.top().filter(|top| self.hangs() && self.ends[*top] == ends);
+        let rim = ring.rim.clone();
+        match top.zip(self.neckline()) {
+            Some((top, Neckline { shoulders, .. })) => {
+                let middle = ring.center + Vec3::y() * self.below_shoulders(top);
+                Held { rim, by: shoulders.to_vec(), middle, along: None }
+            }
+            None => Held { by: rim.clone(), rim, middle: ring.center, along: None },
+        }
+    }
+
     /// Whether an arm is in a sleeve, as its `rings` say: further out than where it begins.
     pub(super) fn has_sleeves(&self, rings: &[Option<OpeningRing>]) -> bool {
         let is_arm = |ends: Ends| limb_of(ends).is_some_and(PartKind::is_arm);
@@ -183,9 +200,11 @@ impl WornOpenings<'_> {
             }
             let arms = axes.part(PartKind::LeftArm).map(|arm| torso.nearest(arm.station(0.0).center));
             let highest = arms.unwrap_or_else(|| torso.length());
-            let is_at_waist = self.rim_words[k].contains(&PlaceWord::Waist.name());
-            let waist = torso.landmark(PlaceWord::Waist.name()).filter(|_| is_at_waist);
-            let range = waist.map_or([0.0, highest], |at| [at - AT_WAIST, at + AT_WAIST]);
+            let range = match torso.landmark(PlaceWord::Waist.name()) {
+                Some(waist) if self.levels[k].contains(&TrunkLevel::Waist) => [waist - AT_WAIST, waist + AT_WAIST],
+                Some(waist) if self.levels[k].contains(&TrunkLevel::Chest) => [waist + AT_WAIST, highest],
+                _ => [0.0, highest],
+            };
             let s = best_height(&self.profiles[k], torso, range.map(|s| s.clamp(0.0, highest)));
             return Seat { station: AxisPlace { axis: Vec3::y(), ..torso.station(s) }, along: None };
         }
