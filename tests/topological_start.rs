@@ -5,6 +5,7 @@ use std::path::Path;
 
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
+use toile::mannequin::{BodyPart, Mannequin, Section};
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::ContactReport;
 use toile::sew::Stitching;
@@ -317,6 +318,22 @@ fn slits_of_a_hem_start_closed_and_wide_ones_open() {
         let closed = openings(&glue(&job.garment, &job.mesh, &dealing.zips), &job.mesh);
         assert_eq!(closed.len(), 2, "{vent} mm: waist and hem");
     }
+}
+
+/// Closed, the hem of a skirt for a mannequin twice as wide would hold no legs.
+#[test]
+fn a_slit_stays_open_where_the_hem_needs_it() {
+    let job = slit_skirt(10.0);
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    let wide = Mannequin { parts: job.body.parts.iter().map(|part| scaled(part, 2.0)).collect(), ..job.body.clone() };
+    let dealing = guess(&job.garment, &job.mesh, &glued, &openings(&glued, &job.mesh), &wide);
+    assert!(dealing.zips.is_empty(), "{} pairs", dealing.zips.len());
+}
+
+/// A part of a body whose girths are so many times as large.
+fn scaled(part: &BodyPart, times: f64) -> BodyPart {
+    let section = |section: &Section| Section { girth: section.girth * times, ..*section };
+    BodyPart { sections: part.sections.iter().map(section).collect(), ..part.clone() }
 }
 
 #[test]

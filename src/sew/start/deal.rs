@@ -117,7 +117,8 @@ pub fn guess(
     dealing.zips = zip::zips(&table.wearing(), &dealing.ends);
     let is_hem = |ends: &Ends| ends.touches(Ends::LEGS) && !ends.has(Ends::HEAD);
     let hems = openings.iter().zip(&dealing.ends).filter(|(_, ends)| is_hem(ends));
-    dealing.zips.extend(hems.flat_map(|(hem, _)| slit::slits(glued, mesh, hem)));
+    let slits = |(hem, ends): (_, &Ends)| slit::slits(glued, mesh, hem, table.sizes.range(*ends).least);
+    dealing.zips.extend(hems.flat_map(slits));
     dealing
 }
 

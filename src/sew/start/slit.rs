@@ -23,22 +23,25 @@ const EDGE: f64 = 0.025;
 /// Shorter ones stay open, metres.
 const SHORTEST: f64 = 0.06;
 
-/// The pairs of particles that close every slit of an opening. Laps are closed already.
-pub(super) fn slits(glued: &Glued, mesh: &ClothMesh, opening: &GluedOpening) -> Vec<[u32; 2]> {
+/// The pairs of particles that close the slits of an opening. None where its rim would be shorter than `least`, metres:
+/// then the body passes through the slits too. Laps are closed already.
+pub(super) fn slits(glued: &Glued, mesh: &ClothMesh, opening: &GluedOpening, least: f64) -> Vec<[u32; 2]> {
     let rim = Rim::new(glued, mesh, opening);
     if opening.sides.len() != opening.rim.len() {
         return Vec::new();
     }
     let mut taken: BTreeSet<u32> = glued.laps.iter().flat_map(|lap| lap.pairs.iter().flatten().copied()).collect();
-    let mut out = Vec::new();
+    let (mut out, mut left) = (Vec::new(), opening.length);
     for end in (0..opening.rim.len()).filter(|&k| rim.angle(k) > TAU - SHARPEST) {
-        let pairs = rim.slit(end);
-        if pairs.iter().flatten().all(|p| !taken.contains(p)) {
+        let [a, b] = rim.slit(end);
+        let pairs = matched(&a.particles, &b.particles);
+        if a.length.min(b.length) >= SHORTEST && pairs.iter().flatten().all(|p| !taken.contains(p)) {
             taken.extend(pairs.iter().flatten());
             out.extend(pairs);
+            left -= a.length + b.length;
         }
     }
-    out
+    if left < least { Vec::new() } else { out }
 }
 
 /// The rim of an opening.
@@ -78,8 +81,8 @@ impl<'a> Rim<'a> {
         self.angles[self.opening.rim[k] as usize]
     }
 
-    /// The slit that ends at a node: pairs of particles on its two sides, from there on.
-    fn slit(&self, end: usize) -> Vec<[u32; 2]> {
+    /// The two sides of the slit that ends at a node, from there on.
+    fn slit(&self, end: usize) -> [Side; 2] {
         let count = self.opening.rim.len();
         let begin = || Side { heading: (TAU - self.angle(end)) / 2.0, off: 0.0, length: 0.0, particles: Vec::new() };
         let mut sides = [begin(), begin()];
@@ -99,8 +102,7 @@ impl<'a> Rim<'a> {
                 side.heading += PI - self.angle(n);
             }
         }
-        let [a, b] = &sides;
-        if a.length.min(b.length) < SHORTEST { Vec::new() } else { matched(&a.particles, &b.particles) }
+        sides
     }
 
     /// Along a side of the rim to its first or last particle.
