@@ -73,8 +73,9 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         let pair = file.cut.as_ref().is_some_and(|cut| cut.value == CutKind::Pair);
         let copies = copies(&file, piece.copies, &mut names, &mut notes);
         let allowances = edges.iter().map(|e| width_of(&file, &e.name)).collect();
-        let warp =
-            file.grain.as_ref().and_then(|g| (Vec2::from(g.value[1]) - Vec2::from(g.value[0])).try_normalize(0.0));
+        // A piece without grain is taken as running down the drawing.
+        let arrow = file.grain.as_ref().map(|g| Vec2::from(g.value[1]) - Vec2::from(g.value[0]));
+        let warp = arrow.map_or(Some(Vec2::y()), |arrow| arrow.try_normalize(0.0));
         let material = piece.material.as_ref().map(name_of);
         let mirrored = pair || fold.is_some();
         told.push((name.clone(), piece.drawn.is_some()));

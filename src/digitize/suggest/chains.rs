@@ -14,8 +14,12 @@ const MOST_CHAINS: usize = 2000;
 const EASE: f64 = 0.08;
 /// Runs that lie so far beside their chords, as a share of these, are hollow, and bulge out on the other side.
 const HOLLOW: f64 = 0.03;
+/// A band may bend by so much to the shape of the body, as a share of its length.
+const BENT: f64 = 0.08;
 /// Edges that lie no farther from the grain than this (radians, 20 degrees) run along it.
 const ALONG_GRAIN: f64 = 0.35;
+/// A chain is an upper or a lower edge whose direction outwards is up or down to this: the cosine of 15 degrees.
+const LEVEL: f64 = 0.966;
 /// Joints of a chain that lie so near to a joint or a notch of the other side (metres) lie opposite it.
 const OPPOSITE: f64 = 0.012;
 
@@ -37,9 +41,9 @@ pub(super) struct RunChain {
     pub(super) length: f64,
     marks: Vec<RunNotch>,
     joints: Vec<f64>,
-    ends: ChainEnds,
+    pub(super) ends: ChainEnds,
     /// Whether its start and its end are in the middle of the wearer.
-    middles: [bool; 2],
+    pub(super) middles: [bool; 2],
     /// Mean of how far its runs lie within their pieces beside their chords.
     hollow: f64,
 }
@@ -51,7 +55,7 @@ pub(super) struct ChainMatch {
     pub(super) b: RunChain,
     /// Whether the first is a half, and the second is as long as both.
     pub(super) doubled: bool,
-    /// Whether the second is longer, and eased in.
+    /// Whether one is longer, and eased or gathered in.
     pub(super) eased: bool,
     pub(super) score: f64,
     pub(super) reasons: Vec<String>,
@@ -154,7 +158,7 @@ impl ChainBook<'_> {
         if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > HOLLOW) {
             return None;
         }
-        let doubled = a.ends == ChainEnds::Folds && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
+        let doubled = a.middles != [false; 2] && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
         let long = if doubled { 2.0 * a.length } else { a.length };
         let mut found =
             ChainMatch { a: a.clone(), b: b.clone(), doubled, eased: false, score: 0.0, reasons: Vec::new() };
@@ -163,19 +167,32 @@ impl ChainBook<'_> {
             self.by_marks(&mut found)?;
         }
         self.by_ends(&mut found);
+        self.by_level(&mut found);
         self.by_grain(&mut found);
         if (a.hollow > HOLLOW && b.hollow < -HOLLOW) || (b.hollow > HOLLOW && a.hollow < -HOLLOW) {
             found.add(1.0, "one is hollow and the other bulges");
         }
         let count = a.runs.len() + b.runs.len();
-        found.score -= 0.25 * (count - 3) as f64;
+        found.score -= 0.25 * (count as f64 - 3.0);
         Some(found)
     }
 
     /// Whether the chain is one run of a piece that is not a half.
     fn is_whole(&self, chain: &RunChain) -> bool {
         matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].fold.is_none())
-            && chain.hollow.abs() < HOLLOW
+            && chain.hollow.abs() < BENT
+    }
+
+    /// A part of a seam between rings: two runs, of which the first may be a half of what the second is sewn to.
+    /// `None` where the right sides would not come together, or where a half does not begin in the middle.
+    pub(super) fn part(&self, one: (usize, bool), other: (usize, bool), doubled: bool) -> Option<ChainMatch> {
+        let mirrored = |(run, _): (usize, bool)| self.outlines[self.runs[run].piece].mirrored;
+        let (a, b) = (self.chain(&[one]), self.chain(&[other]));
+        let is_half = a.middles[0] != a.middles[1];
+        if one.1 == other.1 && !mirrored(one) && !mirrored(other) || doubled && (!is_half || mirrored(other)) {
+            return None;
+        }
+        Some(ChainMatch { a, b, doubled, eased: true, score: 0.0, reasons: Vec::new() })
     }
 
     fn by_length(&self, found: &mut ChainMatch, long: f64, tolerance: Tolerance) -> Option<()> {
@@ -225,13 +242,30 @@ impl ChainBook<'_> {
                 found.add(1.25, "it closes the ring that the other is sewn into");
             }
             (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from middle to middle"),
-            (ChainEnds::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (ChainEnds::Folds | ChainEnds::Open, _) if found.doubled => found.add(0.5, "it goes round both halves"),
             (ChainEnds::Closed | ChainEnds::Folds, _) | (_, ChainEnds::Closed | ChainEnds::Folds) => found.score -= 1.0,
             _ => match [found.a.middles, found.b.middles] {
                 [[false, false], _] | [_, [false, false]] => {}
                 [a, b] if a == b => found.add(1.0, "both begin in the middle"),
                 _ => found.score -= 1.0,
             },
+        }
+    }
+
+    /// Waists and bands: an upper edge is sewn to a lower one.
+    fn by_level(&self, found: &mut ChainMatch) {
+        let facing = |chain: &RunChain| -> f64 {
+            let own = |&(run, _): &(usize, bool)| self.sewn.facing(&self.runs[run]) * self.runs[run].length();
+            chain.runs.iter().map(own).sum::<f64>() / chain.length
+        };
+        let [a, b] = [facing(&found.a), facing(&found.b)];
+        if a.abs().min(b.abs()) < LEVEL {
+            return;
+        }
+        if a * b < 0.0 {
+            found.add(0.75, "an upper and a lower edge");
+        } else {
+            found.score -= 0.75;
         }
     }
 

@@ -3,7 +3,8 @@
 
 use super::Outline;
 use super::chains::ChainMatch;
-use super::run::{EdgeRun, is_fold};
+use super::corner::is_fold;
+use super::run::EdgeRun;
 use crate::geometry::{Vec2, box_or_origin};
 use crate::pattern::{PlaceMeaning, PlaceWord, Side};
 
@@ -64,7 +65,7 @@ pub(super) fn guesses(
         }
     }
     for (run, _, reason) in mirrored.iter().filter(|(run, ..)| outlines[run.piece].pair) {
-        if reason == super::CROTCH_SAID {
+        if reason == super::middles::CROTCH_SAID {
             place(&mut guesses, run.piece, "leg", &facing);
         }
     }

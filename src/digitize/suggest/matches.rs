@@ -1,8 +1,9 @@
 //! Two runs that may be sewn together, and how much speaks for it.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use super::notched::{compared, reversed};
+use super::over_darts::are_legs;
 use super::run::{EdgeRun, LOOKS};
 use super::{Outline, Tolerance};
 
@@ -28,10 +29,6 @@ const SQUARE: f64 = 0.14;
 const SLEEVE: std::ops::Range<f64> = 0.6..5.0;
 /// Two runs that both lie farther than this share of their chords outside these (hems) are not sewn to each other.
 const BULGING: f64 = -0.06;
-/// Legs of a dart differ by less (metres), and the angle inside the piece between them is within this (250 to 355
-/// degrees): where it is a full turn, it is a slit.
-const LEGS_APART: f64 = 1e-3;
-const DART: std::ops::Range<f64> = 250.0 / 180.0 * PI..355.0 / 180.0 * PI;
 /// Points for the legs of a dart.
 pub(super) const DART_SCORE: f64 = 6.0;
 
@@ -42,6 +39,8 @@ pub(super) struct Match {
     pub(super) b: EdgeRun,
     /// Whether the start of the one meets the end of the other.
     pub(super) opposed: bool,
+    /// Whether one is longer, and eased in.
+    pub(super) eased: bool,
     /// How much speaks for it; no unit.
     pub(super) score: f64,
     pub(super) reasons: Vec<String>,
@@ -56,6 +55,26 @@ impl Match {
     pub(super) fn holds(&self, other: &Self) -> bool {
         (self.a.holds(&other.a) && self.b.holds(&other.b)) || (self.a.holds(&other.b) && self.b.holds(&other.a))
     }
+}
+
+/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, and is no shorter than
+/// this (metres).
+const EASED: f64 = 0.03;
+const EASED_LENGTH: f64 = 0.15;
+
+/// A seam of two sides that run down the grain, of which one is a little longer.
+pub(super) fn eased(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance: Tolerance) -> Option<Match> {
+    let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
+    let more = long.length() - short.length();
+    let down = |run: &EdgeRun| to_grain(outlines, run).is_some_and(|angle| angle <= TO_GRAIN[0]);
+    let fits = more > tolerance.of(long.length()) && more <= EASED * short.length() && short.length() >= EASED_LENGTH;
+    if short.piece == long.piece || !fits || !down(a) || !down(b) || a.hollow().min(b.hollow()) > NIPPED {
+        return None;
+    }
+    let mut found = one(outlines, short, long, true, 1.0)?;
+    found.eased = true;
+    found.reasons.push("the longer one is eased in".to_owned());
+    Some(found)
 }
 
 /// Both ways to lay two runs along each other, the better first; none where no seam is there.
@@ -101,7 +120,7 @@ fn one(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, opposed: bool, off: f64) 
             count(-1.0, "");
         }
     }
-    Some(Match { a: a.clone(), b: b.clone(), opposed, score, reasons })
+    Some(Match { a: a.clone(), b: b.clone(), opposed, eased: false, score, reasons })
 }
 
 /// The evidence of notches. `None` where a single one would meet a double one.
@@ -183,7 +202,13 @@ fn may_close(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> bool {
 
 /// The legs of a dart that is drawn as a wedge in the outline: runs that follow each other round its tip.
 pub(super) fn dart(a: &EdgeRun, b: &EdgeRun, angle: f64) -> Option<Match> {
-    let legs = DART.contains(&angle) && (a.length() - b.length()).abs() <= LEGS_APART;
     let reasons = vec!["legs of a dart".to_owned()];
-    legs.then(|| Match { a: a.clone(), b: b.clone(), opposed: true, score: DART_SCORE, reasons })
+    are_legs([a.length(), b.length()], angle).then(|| Match {
+        a: a.clone(),
+        b: b.clone(),
+        opposed: true,
+        eased: false,
+        score: DART_SCORE,
+        reasons,
+    })
 }

@@ -65,7 +65,7 @@ fn outline(piece: &PieceFile, unit: Unit) -> Option<Outline> {
         mirrored: pair || fold.is_some(),
         fold,
         pair,
-        warp: arrow.and_then(|[tail, head]| (head - tail).try_normalize(0.0)),
+        warp: arrow.map_or(Some(Vec2::y()), |[tail, head]| (head - tail).try_normalize(0.0)),
         material: piece.fabric.as_ref().map(|fabric| fabric.value.clone()),
         size: None,
     })

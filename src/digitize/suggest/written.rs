@@ -7,6 +7,9 @@ use super::run::EdgeRun;
 use crate::geometry::MM;
 use crate::pattern::{CutKind, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Spot};
 
+/// A longer side is eased in up to this share, and gathered beyond it.
+const EASED: f64 = 0.08;
+
 /// Edges that may be sewn together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
@@ -20,6 +23,8 @@ pub struct Suggestion {
     pub lengths: [f64; 2],
     /// How much the second is longer (metres), where that is eased in.
     pub ease: Option<f64>,
+    /// How many times as long the first is, where that is gathered.
+    pub gather: Option<f64>,
     /// How much speaks for it: points, comparable within one drawing.
     pub score: f64,
     /// The reasons for it.
@@ -39,9 +44,31 @@ impl Suggestion {
         // A garment file takes more only if that is said.
         let apart = (self.lengths[1] - self.lengths[0]).abs();
         let number = (apart * MM).ceil();
-        let tolerance =
-            (ease.is_none() && apart > DEFAULT_TOLERANCE).then(|| at_no_place(Quantity { number, unit: None }));
-        SeamFile { ease, tolerance, ..SeamFile::new(at_no_place(self.name.clone()), side(&self.sew), side(&self.to)) }
+        let gather = self.gather.map(|ratio| at_no_place((ratio * 1e3).round() / 1e3));
+        let told = ease.is_some() || gather.is_some();
+        let tolerance = (!told && apart > DEFAULT_TOLERANCE).then(|| at_no_place(Quantity { number, unit: None }));
+        SeamFile {
+            ease,
+            gather,
+            tolerance,
+            ..SeamFile::new(at_no_place(self.name.clone()), side(&self.sew), side(&self.to))
+        }
+    }
+
+    /// Itself with the longer side eased in, or gathered where that is much.
+    fn eased(mut self) -> Self {
+        let [sew, to] = self.lengths;
+        let gathered = sew.max(to) > (1.0 + EASED) * sew.min(to);
+        // What is gathered stands first, what is eased in second.
+        if gathered != (sew > to) {
+            (self.sew, self.to) = (self.to, self.sew);
+            self.lengths = [to, sew];
+        }
+        let [sew, to] = self.lengths;
+        let apart = (to - sew).abs() > DEFAULT_TOLERANCE;
+        self.gather = gathered.then_some(sew / to);
+        self.ease = (!gathered && apart).then_some(to - sew);
+        self
     }
 
     /// Its lengths and what speaks for it.
@@ -98,20 +125,17 @@ pub(super) fn written(
         let sides = [(&own.a, false), (&own.b, own.opposed)];
         let [sew, to] = sides.map(|(run, backward)| edges(outlines, run, backward, None));
         let lengths = [own.a.length(), own.b.length()];
-        found.push((pieces(&[&own.a, &own.b]), suggestion(sew, to, lengths, own.score, &own.reasons)));
+        let made = suggestion(sew, to, lengths, own.score, &own.reasons);
+        found.push((pieces(&[&own.a, &own.b]), if own.eased { made.eased() } else { made }));
     }
     for own in chained {
         let of = |chain: &RunChain| chain.runs.iter().map(|(run, _)| runs[*run].piece).collect::<Vec<usize>>();
         let to = walked(outlines, runs, &own.b, true, None);
-        let sew = if own.doubled {
-            let [left, right] = ["L", "R"].map(|side| walked(outlines, runs, &own.a, side == "R", Some(side)));
-            left.into_iter().chain(right).collect()
-        } else {
-            walked(outlines, runs, &own.a, true, None)
-        };
+        let sew =
+            if own.doubled { both_halves(outlines, runs, &own.a) } else { walked(outlines, runs, &own.a, true, None) };
         let lengths = [own.a.length * if own.doubled { 2.0 } else { 1.0 }, own.b.length];
-        let mut made = suggestion(sew, to, lengths, own.score, &own.reasons);
-        made.ease = Some(lengths[1] - lengths[0]).filter(|ease| *ease > DEFAULT_TOLERANCE);
+        let made = suggestion(sew, to, lengths, own.score, &own.reasons);
+        let made = if own.eased { made.eased() } else { made };
         found.push((of(&own.b).into_iter().chain(of(&own.a)).collect(), made));
     }
     for (run, score, reason) in mirrored {
@@ -124,7 +148,15 @@ pub(super) fn written(
 }
 
 fn suggestion(sew: Vec<String>, to: Vec<String>, lengths: [f64; 2], score: f64, reasons: &[String]) -> Suggestion {
-    Suggestion { name: String::new(), sew, to, lengths, ease: None, score, reasons: reasons.to_vec() }
+    Suggestion { name: String::new(), sew, to, lengths, ease: None, gather: None, score, reasons: reasons.to_vec() }
+}
+
+/// A half and its mirror image, from side to side over the middle of the wearer, or from fold to fold and back.
+fn both_halves(outlines: &[Outline], runs: &[EdgeRun], half: &RunChain) -> Vec<String> {
+    let begins_in_middle = half.middles == [true, false];
+    let [first, second] = if begins_in_middle { ["R", "L"] } else { ["L", "R"] };
+    let one = walked(outlines, runs, half, !begins_in_middle, Some(first));
+    one.into_iter().chain(walked(outlines, runs, half, begins_in_middle, Some(second))).collect()
 }
 
 /// `front.a`, `front.b`: the edges of a run as they are walked, of one side if that is said.

@@ -1,0 +1,116 @@
+//! Two runs that may be sewn to each other, and how much speaks for each such seam.
+
+use std::f64::consts::{FRAC_PI_4, PI};
+
+use super::corner::turn_before;
+use super::matches::{Match, dart, eased, matches, to_grain};
+use super::run::{EdgeRun, spans};
+use super::sewn::SeamsFound;
+use super::{Outline, SHARE, Tolerance};
+
+/// Points against a seam that turns one of two upright pieces upside down.
+const UPSIDE_DOWN: f64 = 1.0;
+/// Points against a seam of two upper edges, or of two lower ones, that both go from side to side: waists and hems.
+const SAME_LEVEL: f64 = 1.0;
+/// An edge is an upper or a lower one whose direction outwards is up or down to this: the cosine of 15 degrees.
+const LEVEL: f64 = 0.966;
+/// Points for sides of a piece that a bulging edge lies between: a sleeve's.
+const ROUND_CAP: f64 = 1.0;
+/// An edge bulges that lies so far outside its chord, as a share of it.
+const CAP: f64 = -0.05;
+
+/// Every two runs, or parts of runs between notches, that fit each other, the best way to lay them along each other.
+pub(super) fn candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Vec<Match> {
+    let sewn = SeamsFound::new(outlines);
+    let mut spans: Vec<EdgeRun> = runs.iter().flat_map(|run| spans(&outlines[run.piece], run)).collect();
+    spans.sort_by(|a, b| a.length().total_cmp(&b.length()));
+    let mut found = Vec::new();
+    for (i, a) in spans.iter().enumerate() {
+        let most = a.length() + tolerance.of(a.length()) * (1.0 + SHARE);
+        let near = spans[i + 1..].iter().take_while(|b| b.length() <= most);
+        for b in near.filter(|b| !a.meets(b)) {
+            // In the order of the drawing.
+            let (a, b) = if (a.piece, &a.edges) <= (b.piece, &b.edges) { (a, b) } else { (b, a) };
+            found.extend(best(outlines, runs, &sewn, a, b, tolerance));
+        }
+    }
+    found.sort_by(|x, y| y.score.total_cmp(&x.score));
+    found
+}
+
+/// Every two sides of which one is a little longer.
+pub(super) fn eased_candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Vec<Match> {
+    let sewn = SeamsFound::new(outlines);
+    let of = |(k, a): (usize, &EdgeRun)| {
+        let pairs = runs[k + 1..].iter().filter_map(|b| eased(outlines, a, b, tolerance));
+        pairs.filter(|found| !sewn.is_upside_down(found)).collect::<Vec<Match>>()
+    };
+    let mut found: Vec<Match> = runs.iter().enumerate().flat_map(of).collect();
+    found.sort_by(|x, y| y.score.total_cmp(&x.score));
+    found
+}
+
+/// The better of the two ways to sew two runs.
+fn best(
+    outlines: &[Outline],
+    runs: &[EdgeRun],
+    sewn: &SeamsFound,
+    a: &EdgeRun,
+    b: &EdgeRun,
+    tolerance: Tolerance,
+) -> Option<Match> {
+    if let Some(dart) = tip(outlines, a, b).and_then(|angle| dart(a, b, angle)) {
+        return Some(dart);
+    }
+    let whole = runs.iter().filter(|run| run.piece == a.piece || run.piece == b.piece);
+    let parts = [a, b]
+        .iter()
+        .filter(|span| !whole.clone().any(|run| run.edges == span.edges && run.piece == span.piece))
+        .count();
+    // Whatever else has two sides alike is sewn to others along them.
+    let is_cap = |run: &EdgeRun| run.hollow() < CAP && lies_between(outlines, run, a, b);
+    let goes_down = |run: &EdgeRun| to_grain(outlines, run).is_none_or(|angle| angle <= FRAC_PI_4);
+    let down = goes_down(a) && goes_down(b);
+    let round_cap = a.piece == b.piece && parts == 0 && down && runs.iter().any(is_cap);
+    if a.piece == b.piece && !round_cap {
+        return None;
+    }
+    let ways = matches(outlines, a, b, tolerance).into_iter().map(|mut found| {
+        if round_cap {
+            found.score += ROUND_CAP;
+            found.reasons.push("sides of a sleeve".to_owned());
+        }
+        found.score -= 0.5 * parts as f64;
+        found.score -= if sewn.is_upside_down(&found) { UPSIDE_DOWN } else { 0.0 };
+        found.score -= same_level(sewn, &found);
+        found
+    });
+    // Courses and notches tell which ends meet; else what lies beside the ends.
+    let cost = |found: &Match| 0.4 * sewn.unlikeness(found) - found.score;
+    ways.min_by(|x, y| cost(x).total_cmp(&cost(y)))
+}
+
+/// Points against a seam of two upper or two lower edges.
+fn same_level(sewn: &SeamsFound, seam: &Match) -> f64 {
+    let [a, b] = [&seam.a, &seam.b].map(|run| sewn.facing(run));
+    let across = seam.a.piece != seam.b.piece && sewn.is_across(&seam.a) && sewn.is_across(&seam.b);
+    if across && a.abs().min(b.abs()) >= LEVEL && a * b > 0.0 { SAME_LEVEL } else { 0.0 }
+}
+
+/// The angle inside the piece at the corner that two runs follow each other round.
+fn tip(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> Option<f64> {
+    let outline = &outlines[a.piece];
+    let follows = |one: &EdgeRun, next: &EdgeRun| {
+        (one.piece == next.piece && (one.edges[one.edges.len() - 1] + 1) % outline.edges.len() == next.edges[0])
+            .then(|| PI - turn_before(outline, next.edges[0]))
+    };
+    follows(a, b).or_else(|| follows(b, a))
+}
+
+/// Whether a run is all that lies between two others on one side.
+fn lies_between(outlines: &[Outline], run: &EdgeRun, a: &EdgeRun, b: &EdgeRun) -> bool {
+    let count = outlines[a.piece].edges.len();
+    let next = |run: &EdgeRun| (run.edges[run.edges.len() - 1] + 1) % count;
+    let goes = |from: &EdgeRun, to: &EdgeRun| next(from) == run.edges[0] && next(run) == to.edges[0];
+    run.piece == a.piece && (goes(a, b) || goes(b, a))
+}
