@@ -113,6 +113,9 @@ fn sorted(mut all: Vec<String>) -> Vec<String> {
     all
 }
 
+/// Places along an edge at which the garment's own edge there is looked up.
+const LOOKS: u32 = 40;
+
 /// The garment's own edges that edges of a suggestion run along.
 fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<String> {
     let own = |written: &String| -> Vec<String> {
@@ -144,7 +147,7 @@ fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<Str
             let full = format!("{piece}.{}", edge.name);
             if is_leg { full } else { base(drawings, &full) }
         };
-        [0.1, 0.3, 0.5, 0.7, 0.9].map(nearest).to_vec()
+        (0..LOOKS).map(|k| nearest((f64::from(k) + 0.5) / f64::from(LOOKS))).collect()
     };
     sorted(edges.iter().flat_map(own).collect())
 }

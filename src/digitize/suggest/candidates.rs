@@ -8,12 +8,12 @@ use super::run::{EdgeRun, spans};
 use super::sewn::SeamsFound;
 use super::{Outline, SHARE, Tolerance};
 
+/// Points against the mirror image of a piece that is its own.
+const TURNED: f64 = 0.7;
 /// Points against a seam that turns one of two upright pieces upside down.
 const UPSIDE_DOWN: f64 = 1.0;
 /// Points against a seam of two upper edges, or of two lower ones, that both go from side to side: waists and hems.
 const SAME_LEVEL: f64 = 1.0;
-/// An edge is an upper or a lower one whose direction outwards is up or down to this: the cosine of 15 degrees.
-const LEVEL: f64 = 0.966;
 /// Points for sides of a piece that a bulging edge lies between: a sleeve's.
 const ROUND_CAP: f64 = 1.0;
 /// An edge bulges that lies so far outside its chord, as a share of it.
@@ -38,14 +38,19 @@ pub(super) fn candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tole
     found
 }
 
-/// Every two sides of which one is a little longer.
-pub(super) fn eased_candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Vec<Match> {
-    let sewn = SeamsFound::new(outlines);
+/// Every two sides that no seam has, of which one is a little longer.
+pub(super) fn eased_candidates(
+    sewn: &SeamsFound,
+    outlines: &[Outline],
+    left: &[EdgeRun],
+    tolerance: Tolerance,
+) -> Vec<Match> {
     let of = |(k, a): (usize, &EdgeRun)| {
-        let pairs = runs[k + 1..].iter().filter_map(|b| eased(outlines, a, b, tolerance));
+        let in_step = |found: &Match| sewn.is_in_step(found);
+        let pairs = left[k + 1..].iter().filter_map(|b| eased(outlines, [a, b], tolerance, in_step));
         pairs.filter(|found| !sewn.is_upside_down(found)).collect::<Vec<Match>>()
     };
-    let mut found: Vec<Match> = runs.iter().enumerate().flat_map(of).collect();
+    let mut found: Vec<Match> = left.iter().enumerate().flat_map(of).collect();
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
     found
 }
@@ -82,19 +87,13 @@ fn best(
         }
         found.score -= 0.5 * parts as f64;
         found.score -= if sewn.is_upside_down(&found) { UPSIDE_DOWN } else { 0.0 };
-        found.score -= same_level(sewn, &found);
+        found.score -= if sewn.is_same_level(&found) { SAME_LEVEL } else { 0.0 };
+        found.score -= if !found.opposed && sewn.symmetric[a.piece] && sewn.symmetric[b.piece] { TURNED } else { 0.0 };
         found
     });
     // Courses and notches tell which ends meet; else what lies beside the ends.
     let cost = |found: &Match| 0.4 * sewn.unlikeness(found) - found.score;
     ways.min_by(|x, y| cost(x).total_cmp(&cost(y)))
-}
-
-/// Points against a seam of two upper or two lower edges.
-fn same_level(sewn: &SeamsFound, seam: &Match) -> f64 {
-    let [a, b] = [&seam.a, &seam.b].map(|run| sewn.facing(run));
-    let across = seam.a.piece != seam.b.piece && sewn.is_across(&seam.a) && sewn.is_across(&seam.b);
-    if across && a.abs().min(b.abs()) >= LEVEL && a * b > 0.0 { SAME_LEVEL } else { 0.0 }
 }
 
 /// The angle inside the piece at the corner that two runs follow each other round.

@@ -19,6 +19,8 @@ const HOLLOW: f64 = 0.04;
 /// two-part sleeve at the elbow. Necklines and armholes are shorter than this (metres).
 const NIPPED: f64 = 0.09;
 const NIPPED_LENGTH: f64 = 0.3;
+/// That two shorter runs are alike says nothing where both lie farther than this share within their pieces.
+const SCOOPED: f64 = 0.015;
 /// Runs that are sewn together lie alike to the grain, to this (radians, 12 degrees); farther apart than the second (45
 /// degrees) they seldom are.
 const TO_GRAIN: [f64; 2] = [0.21, 0.79];
@@ -57,23 +59,37 @@ impl Match {
     }
 }
 
-/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, and is no shorter than
-/// this (metres).
-const EASED: f64 = 0.03;
-const EASED_LENGTH: f64 = 0.15;
+/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, or by the second where
+/// the two come one after the other round their pieces as two that are sewn already. It is no shorter than this (metres).
+const EASED: [f64; 2] = [0.03, 0.11];
+const EASED_LENGTH: f64 = 0.06;
+/// Points for that order.
+const IN_STEP: f64 = 1.0;
 
 /// A seam of two sides that run down the grain, of which one is a little longer.
-pub(super) fn eased(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance: Tolerance) -> Option<Match> {
+pub(super) fn eased(
+    outlines: &[Outline],
+    [a, b]: [&EdgeRun; 2],
+    tolerance: Tolerance,
+    in_step: impl Fn(&Match) -> bool,
+) -> Option<Match> {
     let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
     let more = long.length() - short.length();
     let down = |run: &EdgeRun| to_grain(outlines, run).is_some_and(|angle| angle <= TO_GRAIN[0]);
-    let fits = more > tolerance.of(long.length()) && more <= EASED * short.length() && short.length() >= EASED_LENGTH;
+    let fits =
+        more > tolerance.of(long.length()) && more <= EASED[1] * short.length() && short.length() >= EASED_LENGTH;
     if short.piece == long.piece || !fits || !down(a) || !down(b) || a.hollow().min(b.hollow()) > NIPPED {
         return None;
     }
     let mut found = one(outlines, short, long, true, 1.0)?;
     found.eased = true;
     found.reasons.push("the longer one is eased in".to_owned());
+    if in_step(&found) {
+        found.score += IN_STEP;
+        found.reasons.push("they follow other seams of both".to_owned());
+    } else if more > EASED[0] * short.length() {
+        return None;
+    }
     Some(found)
 }
 
@@ -161,7 +177,10 @@ fn by_course(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> (f64, &'static str) {
     if a.bow().max(b.bow()) < STRAIGHT {
         return (0.25, "");
     }
+    // Armholes and necklines are alike, too.
+    let scooped = a.hollow().min(b.hollow()) > SCOOPED && a.length() < NIPPED_LENGTH;
     match differences(a, b, opposed) {
+        [same, _] if same <= ALIKE && scooped => (0.0, ""),
         [same, _] if same <= ALIKE => (1.5, "same course"),
         [_, inverse] if inverse <= ALIKE => (1.25, "courses fit into each other"),
         [same, inverse] if same.min(inverse) <= 2.0 * ALIKE => (0.5, ""),

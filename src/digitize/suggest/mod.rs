@@ -31,7 +31,7 @@ use middles::{center, is_center, told_by_seams};
 pub use of_file::suggestions;
 use run::{EdgeRun, runs};
 use sewn::SeamsFound;
-use taking::{free, take_chains, take_matches, take_rings};
+use taking::{left, take_chains, take_matches, take_rings};
 use written::written;
 pub use written::{Suggestion, sewn};
 
@@ -142,26 +142,29 @@ fn found(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Sewabl
     let mut chained: Vec<ChainMatch> = Vec::new();
     let mut mirrored: Vec<(EdgeRun, f64, String)> = middle.iter().map(|run| center(outlines, run)).collect();
     let is_whole = |own: &EdgeRun| sides.iter().any(|run| run.piece == own.piece && run.edges == own.edges);
+    let candidates = candidates(outlines, &sides, tolerance);
     let (whole, parts): (Vec<Match>, Vec<Match>) =
-        candidates(outlines, &sides, tolerance).into_iter().partition(|found| is_whole(&found.a) && is_whole(&found.b));
-    let eased = eased_candidates(outlines, &sides, tolerance);
+        candidates.into_iter().partition(|found| is_whole(&found.a) && is_whole(&found.b));
+    // Waists may have a band between them.
+    let (whole, level): (Vec<Match>, Vec<Match>) = whole.into_iter().partition(|found| !sewn.is_level(found));
     // What is surer first; after each that brought something what may follow from it.
     let mut step = 0;
-    while step < 6 {
+    while step < 7 {
         let before = (sewn.seams.len(), chained.len(), mirrored.len());
         match step {
             0 => take_matches(&whole, &mut sewn, &chained, &sides),
             1 => take_chains(outlines, &sides, tolerance, &mut sewn, &mut chained),
             2 => {
-                let free = free(&sides, &sewn, &chained);
-                let is_left = |(k, run): (usize, &EdgeRun)| (free[k] && !sewn.is_center(run)).then(|| run.clone());
-                let left: Vec<EdgeRun> = sides.iter().enumerate().filter_map(is_left).collect();
-                let told = told_by_seams(outlines, &sewn, &left);
+                let told = told_by_seams(outlines, &sewn, &left(&sides, &sewn, &chained));
                 told.iter().for_each(|(run, ..)| sewn.add_centers(std::slice::from_ref(run)));
                 mirrored.extend(told);
             }
-            3 => take_matches(&eased, &mut sewn, &chained, &sides),
+            3 => {
+                let eased = eased_candidates(&sewn, outlines, &left(&sides, &sewn, &chained), tolerance);
+                take_matches(&eased, &mut sewn, &chained, &sides);
+            }
             4 => take_rings(outlines, &sides, &mut sewn, &mut chained),
+            5 => take_matches(&level, &mut sewn, &chained, &sides),
             // Parts of edges between notches come last: they are parts of chains, too.
             _ => take_matches(&parts, &mut sewn, &chained, &sides),
         }

@@ -117,7 +117,7 @@ pub(super) fn runs(outlines: &[Outline]) -> Vec<EdgeRun> {
 
 /// Numbers of the edges of each part of an outline: those that go on into each other without a corner, none across the
 /// end of a fold or of a hem.
-fn parts(outline: &Outline) -> Vec<Vec<usize>> {
+pub(super) fn parts(outline: &Outline) -> Vec<Vec<usize>> {
     let count = outline.edges.len();
     let kind = |k: usize| (is_fold(outline, k), is_hem(outline, k));
     let begins = |k: usize| turn_before(outline, k).abs() > CORNER || kind(k) != kind((k + count - 1) % count);

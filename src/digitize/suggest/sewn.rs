@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::Outline;
 use super::corner::{is_fold, turn_before};
 use super::matches::Match;
-use super::run::EdgeRun;
+use super::over_darts::over_darts;
+use super::run::{EdgeRun, parts};
 use crate::digitize::edges::CORNER;
 use crate::geometry::Vec2;
 
@@ -15,8 +16,12 @@ const ROUND: std::ops::RangeInclusive<f64> = 290.0 / 180.0 * PI..=430.0 / 180.0 
 /// A run that rises or falls by more than this share of its length along the grain has an upper and a lower end.
 const UPRIGHT: f64 = 0.3;
 
+/// An edge is an upper or a lower one whose direction outwards is up or down to this: the cosine of 15 degrees.
+const LEVEL: f64 = 0.966;
 /// A run that is as wide as its piece, but for this share, goes from side to side.
 const FROM_SIDE: f64 = 0.9;
+/// Parts of a symmetric piece differ from their mirror images by no more than this (metres).
+const SYMMETRIC: f64 = 5e-4;
 /// Most corners that meet in a point of a garment.
 const MOST_CORNERS: usize = 10;
 
@@ -39,16 +44,56 @@ pub(super) struct SeamsFound<'o> {
     pub(super) joined: Vec<[EdgeEnd; 2]>,
     /// Up in the drawing.
     up: Vec2,
+    /// The parts of each outline from corner to corner, without the legs of darts, clockwise.
+    parts: Vec<Vec<Vec<usize>>>,
+    /// Whether each piece is its own mirror image.
+    pub(super) symmetric: Vec<bool>,
 }
 
 impl<'o> SeamsFound<'o> {
     pub(super) fn new(outlines: &'o [Outline]) -> Self {
-        Self { outlines, seams: Vec::new(), centers: Vec::new(), joined: Vec::new(), up: up(outlines) }
+        let parts: Vec<Vec<Vec<usize>>> = outlines.iter().map(sewn_parts).collect();
+        let symmetric = outlines.iter().zip(&parts).map(|(outline, parts)| is_symmetric(outline, parts)).collect();
+        let (seams, centers, joined) = (Vec::new(), Vec::new(), Vec::new());
+        Self { outlines, seams, centers, joined, up: up(outlines), parts, symmetric }
+    }
+
+    /// Whether the sides of a seam come as many corners after those of a seam that is found as each other, one clockwise
+    /// and one against it, as sides come after shoulders in front and behind.
+    pub(super) fn is_in_step(&self, seam: &Match) -> bool {
+        let place = |run: &EdgeRun| self.parts[run.piece].iter().position(|part| part.contains(&run.edges[0]));
+        let steps = |from: &EdgeRun, to: &EdgeRun| {
+            let count = self.parts[from.piece].len();
+            Some((place(to)? + count - place(from)?) % count)
+        };
+        let after = |[a, b]: [&EdgeRun; 2]| {
+            let back =
+                |run: &EdgeRun, steps: usize| (self.parts[run.piece].len() - steps) % self.parts[run.piece].len();
+            let [one, other] = [steps(a, &seam.a), steps(b, &seam.b)];
+            one.zip(other).is_some_and(|(one, other)| one == back(b, other) || other == back(a, one))
+        };
+        let pieces = [seam.a.piece, seam.b.piece];
+        self.seams.iter().any(|own| match [own.a.piece, own.b.piece] {
+            own_pieces if own_pieces == pieces => after([&own.a, &own.b]),
+            [a, b] if [b, a] == pieces => after([&own.b, &own.a]),
+            _ => false,
+        })
     }
 
     /// The part of a run's direction outwards that is up in the drawing: 1 of an upper edge, -1 of a lower one.
     pub(super) fn facing(&self, run: &EdgeRun) -> f64 {
         run.along().map_or(0.0, |along| Vec2::new(along.y, -along.x).dot(&self.up))
+    }
+
+    /// Whether a seam is between an upper or lower edge of one piece and one of another.
+    pub(super) fn is_level(&self, seam: &Match) -> bool {
+        let level = |run: &EdgeRun| self.facing(run).abs() >= LEVEL && self.is_across(run);
+        seam.a.piece != seam.b.piece && level(&seam.a) && level(&seam.b)
+    }
+
+    /// Whether both of these are upper edges, or both are lower ones.
+    pub(super) fn is_same_level(&self, seam: &Match) -> bool {
+        self.is_level(seam) && self.facing(&seam.a) * self.facing(&seam.b) > 0.0
     }
 
     /// Whether a run goes from side to side of its piece.
@@ -215,6 +260,33 @@ impl<'o> SeamsFound<'o> {
         let up = if warp.y.abs() >= warp.x.abs() { -warp * warp.y.signum() } else { warp * warp.x.signum() };
         along.dot(&up)
     }
+}
+
+/// The parts of an outline from corner to corner, without the legs of darts.
+fn sewn_parts(outline: &Outline) -> Vec<Vec<usize>> {
+    let whole = parts(outline);
+    let joined = over_darts(outline, whole.clone());
+    // Legs stand where they were, and are in no part that goes on over them.
+    let goes_over = |part: &Vec<usize>, edge: usize| {
+        let ends = [part[0], part[part.len() - 1]];
+        let count = outline.edges.len();
+        let along = |k: usize| (k + count - ends[0]) % count;
+        !part.contains(&edge) && along(edge) < along(ends[1])
+    };
+    let mut parts: Vec<Vec<usize>> =
+        joined.iter().filter(|part| !joined.iter().any(|other| goes_over(other, part[0]))).cloned().collect();
+    parts.sort();
+    parts
+}
+
+/// Whether an outline is its own mirror image: its parts are as long as each other from some part on both ways.
+fn is_symmetric(outline: &Outline, parts: &[Vec<usize>]) -> bool {
+    let lengths: Vec<f64> =
+        parts.iter().map(|part| part.iter().map(|&edge| outline.edges[edge].path.length()).sum()).collect();
+    let count = lengths.len();
+    let same = |a: usize, b: usize| (lengths[a % count] - lengths[b % count]).abs() <= SYMMETRIC;
+    // The axis goes through the middle of a part or of a corner.
+    (0..2 * count).any(|sum| (0..count).all(|k| same(k, sum + count - k)))
 }
 
 /// The end of the edge that a run starts or ends with.

@@ -150,8 +150,13 @@ pub(super) fn take_rings(outlines: &[Outline], runs: &[EdgeRun], sewn: &mut Seam
     }
 }
 
+/// The runs that no seam has yet.
+pub(super) fn left(runs: &[EdgeRun], sewn: &SeamsFound, chained: &[ChainMatch]) -> Vec<EdgeRun> {
+    runs.iter().zip(free(runs, sewn, chained)).filter(|(_, free)| *free).map(|(run, _)| run.clone()).collect()
+}
+
 /// Which runs no seam has yet.
-pub(super) fn free(runs: &[EdgeRun], sewn: &SeamsFound, chained: &[ChainMatch]) -> Vec<bool> {
+fn free(runs: &[EdgeRun], sewn: &SeamsFound, chained: &[ChainMatch]) -> Vec<bool> {
     runs.iter().enumerate().map(|(k, run)| !sewn.has(run) && !is_chained(chained, k)).collect()
 }
 
