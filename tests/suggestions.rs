@@ -122,7 +122,7 @@ fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<Str
         if written == "mirror" {
             return vec![written.clone()];
         }
-        let words: Vec<&str> = written.split('.').collect();
+        let words: Vec<&str> = written.split('@').next().unwrap_or_default().split('.').collect();
         let (piece, edge) = (words[0], words[words.len() - 1]);
         let k = drawings.iter().position(|d| d.name == piece).expect("a piece");
         let file = &made.file.pieces[k];

@@ -14,6 +14,8 @@ const MOST_CHAINS: usize = 2000;
 const EASE: f64 = 0.08;
 /// Runs that lie so far beside their chords, as a share of these, are hollow, and bulge out on the other side.
 const HOLLOW: f64 = 0.03;
+/// The edge of a hood that goes round the neck may be hollow up to this.
+const HOOD: f64 = 0.08;
 /// A band may bend by so much to the shape of the body, as a share of its length.
 const BENT: f64 = 0.08;
 /// Edges that lie no farther from the grain than this (radians, 20 degrees) run along it.
@@ -55,6 +57,8 @@ pub(super) struct ChainMatch {
     pub(super) b: RunChain,
     /// Whether the first is a half, and the second is as long as both.
     pub(super) doubled: bool,
+    /// Where the second goes on beyond the first and laps: the length of it that is sewn, metres.
+    pub(super) lapped: Option<f64>,
     /// Whether one is longer, and eased or gathered in.
     pub(super) eased: bool,
     pub(super) score: f64,
@@ -155,13 +159,22 @@ impl ChainBook<'_> {
         let pieces =
             |chain: &RunChain| -> Vec<usize> { chain.runs.iter().map(|(run, _)| self.runs[*run].piece).collect() };
         let (own, other) = (pieces(a), pieces(b));
-        if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > HOLLOW) {
+        // A hood's edge may be hollow to the front.
+        let hollow = if a.ends == ChainEnds::Folds && self.is_loose_half(b) { HOOD } else { HOLLOW };
+        if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > hollow) {
             return None;
         }
         let doubled = a.middles != [false; 2] && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
         let long = if doubled { 2.0 * a.length } else { a.length };
-        let mut found =
-            ChainMatch { a: a.clone(), b: b.clone(), doubled, eased: false, score: 0.0, reasons: Vec::new() };
+        let mut found = ChainMatch {
+            a: a.clone(),
+            b: b.clone(),
+            doubled,
+            lapped: None,
+            eased: false,
+            score: 0.0,
+            reasons: Vec::new(),
+        };
         self.by_length(&mut found, long, tolerance)?;
         if !doubled {
             self.by_marks(&mut found)?;
@@ -183,6 +196,22 @@ impl ChainBook<'_> {
             && chain.hollow.abs() < BENT
     }
 
+    /// Whether the chain is one run of a pair that is sewn to nothing yet: of a hood, or of a collar.
+    fn is_loose_half(&self, chain: &RunChain) -> bool {
+        matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].pair && self.is_loose(self.runs[run].piece))
+    }
+
+    /// Whether no seam has an edge of a piece.
+    pub(super) fn is_loose(&self, piece: usize) -> bool {
+        self.runs.iter().zip(&self.free).all(|(run, free)| run.piece != piece || *free)
+    }
+
+    /// Whether a chain begins at a seam down the center, which may be left open above.
+    pub(super) fn opens_first(&self, chain: &RunChain) -> bool {
+        let beside = chain.runs.first().map(|&(run, forward)| self.sewn.beside(&self.runs[run], !forward));
+        beside.is_some_and(|end| self.sewn.is_middle(end) && !self.sewn.lies_on_fold(end))
+    }
+
     /// A part of a seam between rings: two runs, of which the first may be a half of what the second is sewn to.
     /// `None` where the right sides would not come together, or where a half does not begin in the middle.
     pub(super) fn part(&self, one: (usize, bool), other: (usize, bool), doubled: bool) -> Option<ChainMatch> {
@@ -192,7 +221,7 @@ impl ChainBook<'_> {
         if one.1 == other.1 && !mirrored(one) && !mirrored(other) || doubled && (!is_half || mirrored(other)) {
             return None;
         }
-        Some(ChainMatch { a, b, doubled, eased: true, score: 0.0, reasons: Vec::new() })
+        Some(ChainMatch { a, b, doubled, lapped: None, eased: true, score: 0.0, reasons: Vec::new() })
     }
 
     fn by_length(&self, found: &mut ChainMatch, long: f64, tolerance: Tolerance) -> Option<()> {
@@ -243,6 +272,9 @@ impl ChainBook<'_> {
             }
             (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from middle to middle"),
             (ChainEnds::Folds | ChainEnds::Open, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (ChainEnds::Folds, ChainEnds::Open) if self.is_loose_half(&found.b) => {
+                found.add(1.0, "its halves go round both sides");
+            }
             (ChainEnds::Closed | ChainEnds::Folds, _) | (_, ChainEnds::Closed | ChainEnds::Folds) => found.score -= 1.0,
             _ => match [found.a.middles, found.b.middles] {
                 [[false, false], _] | [_, [false, false]] => {}

@@ -1,9 +1,10 @@
 //! The middle of the wearer: seams between the halves of a pair.
 
 use super::Outline;
+use super::chains::{ChainEnds, ChainMatch};
 use super::matches::{Match, to_grain};
 use super::run::{EdgeRun, says};
-use super::sewn::{SeamsFound, run_end};
+use super::sewn::{EdgeEnd, SeamsFound, run_end};
 use crate::geometry::Vec2;
 use crate::pattern::{PlaceMeaning, PlaceWord};
 
@@ -24,6 +25,11 @@ const ACROSS: f64 = 0.8;
 
 /// The notes on a seam down the center that may be left open, and on one along a crotch.
 const CENTER_SAID: &str = "along the grain, if it is not left open";
+const HOOD_SAID: &str = "the crown of a hood";
+/// A collar is no higher than this share of its width; a hood is higher.
+const LOW: f64 = 0.5;
+/// The crown of a hood bulges by more than this share of its chord.
+const CROWN: f64 = -0.05;
 pub(super) const CROTCH_SAID: &str = "a crotch";
 /// The halves of a pair may be sewn to each other at edges called so.
 const CENTER: [&str; 2] = ["center", "centre"];
@@ -140,4 +146,36 @@ fn opposite<'r>(
     let mut found = own.iter().filter(center);
     let one = found.next().copied();
     one.filter(|run| found.next().is_none() && !sewn.centers.contains(&(run.piece, run.edges[0])))
+}
+
+/// The centers of hoods, which are drawn as halves: the edge that bulges beside the seam round the neck, and what follows
+/// it up to the face, which does not bulge.
+pub(super) fn told_by_chains(
+    sewn: &SeamsFound,
+    outlines: &[Outline],
+    chained: &[ChainMatch],
+    runs: &[EdgeRun],
+) -> Vec<(EdgeRun, f64, String)> {
+    let mut found = Vec::new();
+    for chain in chained.iter().filter(|chain| chain.a.ends == ChainEnds::Folds && !chain.doubled) {
+        let [(run, _)] = chain.b.runs[..] else { continue };
+        let neck = &runs[run];
+        if !outlines[neck.piece].pair || sewn.is_low(neck.piece, LOW) {
+            continue;
+        }
+        let at = |end: EdgeEnd| runs.iter().find(|next| run_end(next, end.at_end) == end);
+        let beside = [false, true].map(|at_end| at(sewn.beside(neck, at_end)));
+        let bulges = beside.map(|run| run.is_some_and(|run| run.hollow() < CROWN));
+        let (Some(one), Some(other)) = (beside[0], beside[1]) else { continue };
+        let (mut next, face, at_end) = match bulges {
+            [true, false] => (Some(one), other, false),
+            [false, true] => (Some(other), one, true),
+            _ => continue,
+        };
+        while let Some(own) = next.filter(|own| !own.meets(face) && !own.meets(neck) && !sewn.has(own)) {
+            found.push((own.clone(), BY_COURSE, HOOD_SAID.to_owned()));
+            next = at(sewn.beside(own, at_end));
+        }
+    }
+    found
 }

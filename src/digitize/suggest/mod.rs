@@ -27,7 +27,7 @@ use chains::ChainMatch;
 pub(in crate::digitize) use guess::Guess;
 use guess::guesses;
 use matches::Match;
-use middles::{center, is_center, told_by_seams};
+use middles::{center, is_center, told_by_chains, told_by_seams};
 pub use of_file::suggestions;
 use run::{EdgeRun, runs};
 use sewn::SeamsFound;
@@ -155,7 +155,8 @@ fn found(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tolerance) -> Sewabl
             0 => take_matches(&whole, &mut sewn, &chained, &sides),
             1 => take_chains(outlines, &sides, tolerance, &mut sewn, &mut chained),
             2 => {
-                let told = told_by_seams(outlines, &sewn, &left(&sides, &sewn, &chained));
+                let mut told = told_by_seams(outlines, &sewn, &left(&sides, &sewn, &chained));
+                told.extend(told_by_chains(&sewn, outlines, &chained, &sides));
                 told.iter().for_each(|(run, ..)| sewn.add_centers(std::slice::from_ref(run)));
                 mirrored.extend(told);
             }

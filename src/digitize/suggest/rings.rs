@@ -2,10 +2,16 @@
 //! shorter and the other is eased or gathered into it.
 
 use super::chains::{ChainBook, ChainEnds, ChainMatch, RunChain};
+use super::sewn::EdgeEnd;
 use crate::geometry::DisjointSets;
 
 /// A ring is sewn to one that is longer by no more than this share. More is gathered by a pattern's own words.
 const GATHERED: f64 = 0.5;
+/// A band that is sewn to itself is shorter or longer by no more than this share.
+const LOOSE: f64 = 0.25;
+/// A band laps by so much (metres): for a button, a hook or a zip.
+const LAP: std::ops::RangeInclusive<f64> = 0.012..=0.07;
+const LAP_POINTS: f64 = 1.0;
 /// Up to this share it is eased in.
 const EASED: f64 = 0.08;
 /// Up to this share they are as long as each other.
@@ -44,6 +50,10 @@ struct Ring {
     facing: f64,
     /// Whether all that it is sewn to is as low as a band.
     band: bool,
+    /// Whether it is a band that is sewn to nothing yet, not even to itself.
+    loose: bool,
+    /// Whether it goes over a seam down the center, which may be left open above.
+    opens: bool,
     /// The number of the first piece of all that is sewn together with it.
     part: u32,
 }
@@ -63,6 +73,8 @@ fn sorted(walk: &RunChain) -> Vec<usize> {
 /// The seams of two rings, a seam for each part, and how much speaks for them.
 pub(super) struct RingMatch {
     pub(super) parts: Vec<ChainMatch>,
+    /// The ends of a band that are sewn to each other.
+    pub(super) closing: Option<[EdgeEnd; 2]>,
     score: f64,
     runs: Vec<usize>,
 }
@@ -97,8 +109,16 @@ fn rings(book: &ChainBook, chained: &[ChainMatch], runs: &[super::run::EdgeRun])
         pieces.windows(2).for_each(|pair| drop(together.join(pair[0] as u32, pair[1] as u32)));
     }
     let mut rings: Vec<Ring> = Vec::new();
-    for walk in book.chains().into_iter().filter(|walk| walk.ends != ChainEnds::Open) {
+    let is_loose = |walk: &RunChain| match walk.runs[..] {
+        [(run, _)] if walk.ends == ChainEnds::Open => {
+            let piece = runs[run].piece;
+            book.is_loose(piece) && book.sewn.is_low(piece, BAND) && book.closing(walk).is_some()
+        }
+        _ => false,
+    };
+    for walk in book.chains().into_iter().filter(|walk| walk.ends != ChainEnds::Open || is_loose(walk)) {
         if let Some(ring) = rings.iter_mut().find(|ring| ring.runs() == sorted(&walk)) {
+            ring.opens |= ring.half && book.opens_first(&walk);
             ring.walks.push(walk);
             continue;
         }
@@ -119,52 +139,99 @@ fn rings(book: &ChainBook, chained: &[ChainMatch], runs: &[super::run::EdgeRun])
             facing: facing / walk.length,
             band,
             part,
+            loose: is_loose(&walk),
+            opens: half && book.opens_first(&walk),
             walks: vec![walk],
         });
     }
     rings
 }
 
+/// How the lengths of two rings fit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum RingFit {
+    Equal,
+    Eased,
+    Gathered,
+    /// The band goes on beyond the other, and laps.
+    Lapped,
+}
+
+impl RingFit {
+    fn of(a: &Ring, b: &Ring) -> Option<Self> {
+        let ratio = b.length / a.length;
+        let apart = ratio.max(1.0 / ratio) - 1.0;
+        let (band, other) = if a.loose { (a, b) } else { (b, a) };
+        let lap = band.length - other.length;
+        match () {
+            () if a.loose && b.loose => None,
+            () if apart <= EQUAL => Some(Self::Equal),
+            () if band.loose && other.opens && LAP.contains(&lap) => Some(Self::Lapped),
+            // A closed band must give where it is put on over the head or the hand.
+            () if band.loose => (!other.opens && apart <= LOOSE).then_some(Self::Gathered),
+            () if apart <= EASED => Some(Self::Eased),
+            () => (apart <= GATHERED).then_some(Self::Gathered),
+        }
+    }
+
+    fn points(self, a: &Ring, b: &Ring) -> f64 {
+        let ratio = b.length / a.length;
+        match self {
+            Self::Equal => EQUAL_POINTS,
+            Self::Eased => EASED_POINTS * (1.0 - 0.5 * (ratio.max(1.0 / ratio) - 1.0) / EASED),
+            Self::Lapped => LAP_POINTS,
+            Self::Gathered => 0.0,
+        }
+    }
+
+    fn said(self) -> &'static str {
+        match self {
+            Self::Equal => "both go all round and are as long",
+            Self::Eased => "both go all round, and the longer one is eased in",
+            Self::Gathered => "both go all round, and the longer one is gathered, or the shorter one stretched",
+            Self::Lapped => "both go all round, and the band laps beyond",
+        }
+    }
+}
+
 /// The seams between two rings of different parts of the garment, as far as they fit.
 fn matched(book: &ChainBook, a: &Ring, b: &Ring) -> Option<RingMatch> {
-    let ratio = b.length / a.length;
-    let apart = ratio.max(1.0 / ratio) - 1.0;
-    if a.part == b.part || a.twice != b.twice || apart > GATHERED {
+    if a.part == b.part || a.twice != b.twice {
         return None;
     }
-    let length = match apart {
-        _ if apart <= EQUAL => EQUAL_POINTS,
-        _ if apart <= EASED => EASED_POINTS * (1.0 - 0.5 * apart / EASED),
-        _ => 0.0,
-    };
+    let fit = RingFit::of(a, b)?;
     let level = match a.facing.abs().min(b.facing.abs()) >= LEVEL {
         true if a.facing * b.facing < 0.0 => LEVEL_POINTS,
         true => -LEVEL_POINTS,
         false => 0.0,
     };
-    let (off, parts) = aligned(book, a, b)?;
+    let (off, mut parts) = aligned(book, a, b)?;
     let proportion = if off <= PROPORTION[0] { PARTS_POINTS } else { -PARTS_POINTS };
     let band = if a.band != b.band { BAND_POINTS } else { 0.0 };
-    let score = length + level + proportion + band;
+    let score = fit.points(a, b) + level + proportion + band;
     if score < LEAST || off > PROPORTION[1] {
         return None;
     }
-    let said = match apart {
-        _ if apart <= EQUAL => "both go all round and are as long",
-        _ if apart <= EASED => "both go all round, and the longer one is eased in",
-        _ => "both go all round, and the longer one is gathered",
-    };
-    let mut reasons = vec![said.to_owned()];
+    let mut reasons = vec![fit.said().to_owned()];
     reasons.extend((level > 0.0).then(|| "an upper and a lower edge".to_owned()));
-    let seams = parts.into_iter().map(|part| ChainMatch { score, reasons: reasons.clone(), ..part }).collect();
-    Some(RingMatch { parts: seams, score, runs: [a.runs(), b.runs()].concat() })
+    for part in &mut parts {
+        part.lapped = (fit == RingFit::Lapped).then(|| a.length.min(b.length));
+        (part.score, part.reasons) = (score, reasons.clone());
+    }
+    let loose = if a.loose { a } else { b };
+    let closes = loose.loose && fit == RingFit::Gathered;
+    let closing = closes.then(|| book.closing(&loose.walks[0])).flatten();
+    Some(RingMatch { parts, closing, score, runs: [a.runs(), b.runs()].concat() })
 }
 
 /// The best way to lay two rings along each other, part by part, and by how much the shares of these differ (logarithm).
 fn aligned(book: &ChainBook, a: &Ring, b: &Ring) -> Option<(f64, Vec<ChainMatch>)> {
     // Of halves and whole pieces, front and back each go over the middle.
     let doubled = a.half != b.half;
-    let (half, whole) = if b.half && doubled { (b, a) } else { (a, b) };
+    let (half, whole) = if b.half && doubled || a.loose { (b, a) } else { (a, b) };
+    if whole.loose {
+        return around(book, half, whole);
+    }
     let first = &half.walks[0];
     if doubled && first.runs.len() != 2 {
         return None;
@@ -188,4 +255,23 @@ fn aligned(book: &ChainBook, a: &Ring, b: &Ring) -> Option<(f64, Vec<ChainMatch>
         }
     }
     best
+}
+
+/// A band that goes round a ring in one.
+fn around(book: &ChainBook, ring: &Ring, band: &Ring) -> Option<(f64, Vec<ChainMatch>)> {
+    // What may be left open is where the band begins.
+    let begins = |walk: &&RunChain| !ring.half || !ring.opens || book.opens_first(walk);
+    let walk = ring.walks.iter().find(begins)?;
+    let opposed = |own: &&RunChain| own.runs[0].1 != walk.runs[0].1;
+    let own = band.walks.iter().find(opposed).unwrap_or(&band.walks[0]);
+    let part = ChainMatch {
+        a: walk.clone(),
+        b: own.clone(),
+        doubled: ring.half,
+        lapped: None,
+        eased: true,
+        score: 0.0,
+        reasons: Vec::new(),
+    };
+    Some((0.0, vec![part]))
 }

@@ -85,15 +85,17 @@ impl<'o> SeamsFound<'o> {
         run.along().map_or(0.0, |along| Vec2::new(along.y, -along.x).dot(&self.up))
     }
 
-    /// Whether a seam is between an upper or lower edge of one piece and one of another.
+    /// Whether a seam is between an upper edge of one piece and a lower one of another.
     pub(super) fn is_level(&self, seam: &Match) -> bool {
-        let level = |run: &EdgeRun| self.facing(run).abs() >= LEVEL && self.is_across(run);
-        seam.a.piece != seam.b.piece && level(&seam.a) && level(&seam.b)
+        let [a, b] = [&seam.a, &seam.b].map(|run| self.facing(run));
+        seam.a.piece != seam.b.piece && a.abs().min(b.abs()) >= LEVEL && a * b < 0.0
     }
 
-    /// Whether both of these are upper edges, or both are lower ones.
+    /// Whether both of these are upper edges from side to side, or both are lower ones.
     pub(super) fn is_same_level(&self, seam: &Match) -> bool {
-        self.is_level(seam) && self.facing(&seam.a) * self.facing(&seam.b) > 0.0
+        let [a, b] = [&seam.a, &seam.b].map(|run| self.facing(run));
+        let across = self.is_across(&seam.a) && self.is_across(&seam.b);
+        across && seam.a.piece != seam.b.piece && a.abs().min(b.abs()) >= LEVEL && a * b > 0.0
     }
 
     /// Whether a run goes from side to side of its piece.

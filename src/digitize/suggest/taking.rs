@@ -106,25 +106,21 @@ pub(super) fn take_chains(
         rings.extend(fit.reasons.iter().any(|r| r.starts_with("it closes")).then(|| book.closing(&fit.b)).flatten());
         taken.push(fit.clone());
     }
-    for sides in rings {
-        let [a, b] =
-            sides.map(|side| runs.iter().find(|run| run.piece == side.piece && run.edges.contains(&side.edge)));
-        if let (Some(a), Some(b)) = (a, b)
-            && !sewn.has(a)
-            && !sewn.has(b)
-        {
-            let reasons = vec!["it closes the ring for the longer seam".to_owned()];
-            sewn.seams.push(Match {
-                a: a.clone(),
-                b: b.clone(),
-                opposed: true,
-                eased: false,
-                score: CLOSES_RING,
-                reasons,
-            });
-        }
-    }
+    rings.into_iter().for_each(|sides| close(runs, sides, sewn));
     take(runs, taken, sewn, chained);
+}
+
+/// Sews the ends of a band to each other, if nothing else is sewn to them.
+fn close(runs: &[EdgeRun], sides: [EdgeEnd; 2], sewn: &mut SeamsFound) {
+    let of = |side: EdgeEnd| runs.iter().find(|run| run.piece == side.piece && run.edges.contains(&side.edge));
+    if let [Some(a), Some(b)] = sides.map(of)
+        && !sewn.has(a)
+        && !sewn.has(b)
+    {
+        let reasons = vec!["it closes the ring for the longer seam".to_owned()];
+        let (a, b) = (a.clone(), b.clone());
+        sewn.seams.push(Match { a, b, opposed: true, eased: false, score: CLOSES_RING, reasons });
+    }
 }
 
 /// Takes chains, and what they join at their ends.
@@ -147,6 +143,7 @@ pub(super) fn take_rings(outlines: &[Outline], runs: &[EdgeRun], sewn: &mut Seam
     let found = ring_seams(&book, chained, runs);
     for ring in found {
         take(runs, ring.parts, sewn, chained);
+        ring.closing.into_iter().for_each(|sides| close(runs, sides, sewn));
     }
 }
 

@@ -55,6 +55,15 @@ impl Suggestion {
         }
     }
 
+    /// Itself with this length (metres) of a second side of one edge sewn from its start.
+    fn lapped(mut self, length: f64) -> Self {
+        if let [edge] = &mut self.to[..] {
+            *edge = format!("{edge}@0..{}", (length * MM * 1e3).round() / 1e3);
+            self.lengths[1] = length;
+        }
+        self
+    }
+
     /// Itself with the longer side eased in, or gathered where that is much.
     fn eased(mut self) -> Self {
         let [sew, to] = self.lengths;
@@ -135,7 +144,11 @@ pub(super) fn written(
             if own.doubled { both_halves(outlines, runs, &own.a) } else { walked(outlines, runs, &own.a, true, None) };
         let lengths = [own.a.length * if own.doubled { 2.0 } else { 1.0 }, own.b.length];
         let made = suggestion(sew, to, lengths, own.score, &own.reasons);
-        let made = if own.eased { made.eased() } else { made };
+        let made = match own.lapped {
+            Some(length) => made.lapped(length),
+            None if own.eased => made.eased(),
+            None => made,
+        };
         found.push((of(&own.b).into_iter().chain(of(&own.a)).collect(), made));
     }
     for (run, score, reason) in mirrored {
