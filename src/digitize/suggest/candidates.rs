@@ -8,6 +8,12 @@ use super::run::{EdgeRun, spans};
 use super::sewn::SeamsFound;
 use super::{Outline, SHARE, Tolerance};
 
+/// Points against a seam of the same side of two pieces that are each other's mirror image.
+const TWINS: f64 = 3.0;
+/// Points against a seam of the ends of two strips, of which one is cut more often, and how long these ends are, as a
+/// share of the strips.
+const STRIPS: f64 = 1.5;
+const STRIP: f64 = 0.25;
 /// Points against the mirror image of a piece that is its own.
 const TURNED: f64 = 0.7;
 /// Points against a seam that turns one of two upright pieces upside down.
@@ -88,12 +94,21 @@ fn best(
         found.score -= 0.5 * parts as f64;
         found.score -= if sewn.is_upside_down(&found) { UPSIDE_DOWN } else { 0.0 };
         found.score -= if sewn.is_same_level(&found) { SAME_LEVEL } else { 0.0 };
+        found.score -= if sewn.is_of_twins(&found) && !a.path.is_straight() { TWINS } else { 0.0 };
+        found.score -= if strips_apart(outlines, sewn, a, b) { STRIPS } else { 0.0 };
         found.score -= if !found.opposed && sewn.symmetric[a.piece] && sewn.symmetric[b.piece] { TURNED } else { 0.0 };
         found
     });
     // Courses and notches tell which ends meet; else what lies beside the ends.
     let cost = |found: &Match| 0.4 * sewn.unlikeness(found) - found.score;
     ways.min_by(|x, y| cost(x).total_cmp(&cost(y)))
+}
+
+/// Whether two runs are the short ends of strips of which one is cut more often: bindings of a neck and of arms are as
+/// wide as each other.
+fn strips_apart(outlines: &[Outline], sewn: &SeamsFound, a: &EdgeRun, b: &EdgeRun) -> bool {
+    let is_end = |run: &EdgeRun| run.length() <= STRIP * sewn.size(run.piece);
+    a.piece != b.piece && outlines[a.piece].pair != outlines[b.piece].pair && is_end(a) && is_end(b)
 }
 
 /// The angle inside the piece at the corner that two runs follow each other round.

@@ -47,7 +47,7 @@ pub(super) struct RunChain {
     /// Whether its start and its end are in the middle of the wearer.
     pub(super) middles: [bool; 2],
     /// Mean of how far its runs lie within their pieces beside their chords.
-    hollow: f64,
+    pub(super) hollow: f64,
 }
 
 /// Two chains that may be sewn together.

@@ -63,6 +63,8 @@ impl Match {
 /// the two come one after the other round their pieces as two that are sewn already. It is no shorter than this (metres).
 const EASED: [f64; 2] = [0.03, 0.11];
 const EASED_LENGTH: f64 = 0.06;
+/// The note on two sides of one course.
+const SAME_COURSE: &str = "same course";
 /// Points for that order.
 const IN_STEP: f64 = 1.0;
 
@@ -87,7 +89,7 @@ pub(super) fn eased(
     if in_step(&found) {
         found.score += IN_STEP;
         found.reasons.push("they follow other seams of both".to_owned());
-    } else if more > EASED[0] * short.length() {
+    } else if more > EASED[0] * short.length() || !found.reasons.iter().any(|reason| reason == SAME_COURSE) {
         return None;
     }
     Some(found)
@@ -181,7 +183,7 @@ fn by_course(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> (f64, &'static str) {
     let scooped = a.hollow().min(b.hollow()) > SCOOPED && a.length() < NIPPED_LENGTH;
     match differences(a, b, opposed) {
         [same, _] if same <= ALIKE && scooped => (0.0, ""),
-        [same, _] if same <= ALIKE => (1.5, "same course"),
+        [same, _] if same <= ALIKE => (1.5, SAME_COURSE),
         [_, inverse] if inverse <= ALIKE => (1.25, "courses fit into each other"),
         [same, inverse] if same.min(inverse) <= 2.0 * ALIKE => (0.5, ""),
         _ if a.bow().min(b.bow()) < STRAIGHT => (-1.0, ""),

@@ -20,14 +20,17 @@ pub(super) fn are_legs([a, b]: [f64; 2], angle: f64) -> bool {
 /// The parts of an outline, those joined that a dart between them brings together without a corner.
 pub(super) fn over_darts(outline: &Outline, parts: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let count = parts.len();
+    // A dart has two legs and something beside each.
+    if count < 4 {
+        return parts;
+    }
     let is_dart = |k: usize| {
         let [a, b] = [&parts[k % count], &parts[(k + 1) % count]];
         let length = |part: &[usize]| part.iter().map(|&edge| outline.edges[edge].path.length()).sum::<f64>();
         are_legs([length(a), length(b)], PI - turn_before(outline, b[0]))
     };
     // Neighbours of legs are no legs: of a zigzag nothing is known.
-    let dart: Vec<bool> =
-        (0..count).map(|k| count > 3 && is_dart(k) && !is_dart(k + count - 1) && !is_dart(k + 1)).collect();
+    let dart: Vec<bool> = (0..count).map(|k| is_dart(k) && !is_dart(k + count - 1) && !is_dart(k + 1)).collect();
     let goes_on = |k: usize| {
         let [a, b] = [&parts[(k + count - 1) % count], &parts[(k + 2) % count]];
         dart[k] && !is_fold(outline, a[0]) && !is_fold(outline, b[0]) && is_smooth(outline, a[a.len() - 1], b[0])
@@ -36,19 +39,17 @@ pub(super) fn over_darts(outline: &Outline, parts: Vec<Vec<usize>>) -> Vec<Vec<u
     let is_leg = |k: usize| dart[k] || dart[(k + count - 1) % count];
     // Begin where nothing goes on.
     let Some(first) = (0..count).find(|&k| !is_leg(k) && !joined[(k + count - 2) % count]) else { return parts };
-    let mut done: Vec<Vec<usize>> = Vec::new();
-    let (mut legs, mut k) = (Vec::new(), first);
-    while k < first + count {
-        let part = &parts[k % count];
-        match done.last_mut() {
-            Some(last) if k >= first + 3 && joined[(k - 2) % count] => last.extend(part),
-            _ => done.push(part.clone()),
+    let at = |i: usize| (first + i) % count;
+    let (mut done, mut legs, mut i) = (Vec::new(), Vec::new(), 0);
+    while i < count {
+        let mut part = parts[at(i)].clone();
+        i += 1;
+        while i + 2 < count && joined[at(i)] {
+            legs.extend([parts[at(i)].clone(), parts[at(i + 1)].clone()]);
+            part.extend(&parts[at(i + 2)]);
+            i += 3;
         }
-        k += 1;
-        if joined[k % count] && k + 2 < first + count {
-            legs.extend([parts[k % count].clone(), parts[(k + 1) % count].clone()]);
-            k += 2;
-        }
+        done.push(part);
     }
     done.extend(legs);
     done

@@ -14,8 +14,10 @@ const LAP: std::ops::RangeInclusive<f64> = 0.012..=0.07;
 const LAP_POINTS: f64 = 1.0;
 /// Up to this share it is eased in.
 const EASED: f64 = 0.08;
+/// Two rings that both lie farther than this share of their chords within their pieces are not sewn to each other.
+const HOLLOW: f64 = 0.03;
 /// Up to this share they are as long as each other.
-const EQUAL: f64 = 0.005;
+const EQUAL: f64 = 0.003;
 /// Points for rings as long as each other, for eased ones at most, for an upper and a lower edge, for parts in the same
 /// proportion, and for a band between two other pieces.
 const EQUAL_POINTS: f64 = 2.0;
@@ -77,6 +79,8 @@ pub(super) struct RingMatch {
     pub(super) closing: Option<[EdgeEnd; 2]>,
     score: f64,
     runs: Vec<usize>,
+    /// The parts of the garment that they join.
+    between: [u32; 2],
 }
 
 /// The seams between rings that nothing else comes near.
@@ -87,7 +91,7 @@ pub(super) fn ring_seams(book: &ChainBook, chained: &[ChainMatch], runs: &[super
         found.extend(rings[k + 1..].iter().filter_map(|b| matched(book, a, b)));
     }
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
-    let meets = |x: &RingMatch, y: &RingMatch| x.runs.iter().any(|run| y.runs.contains(run));
+    let meets = |x: &RingMatch, y: &RingMatch| x.between == y.between || x.runs.iter().any(|run| y.runs.contains(run));
     let clear = |k: usize| {
         let rival = |(i, other): (usize, &RingMatch)| {
             i != k && meets(&found[k], other) && other.score > found[k].score - MARGIN
@@ -205,6 +209,11 @@ fn matched(book: &ChainBook, a: &Ring, b: &Ring) -> Option<RingMatch> {
         true => -LEVEL_POINTS,
         false => 0.0,
     };
+    // Linings have the armholes and necklines of what they line.
+    let hollow = |ring: &Ring| ring.walks[0].hollow > HOLLOW;
+    if level <= 0.0 && hollow(a) && hollow(b) {
+        return None;
+    }
     let (off, mut parts) = aligned(book, a, b)?;
     let proportion = if off <= PROPORTION[0] { PARTS_POINTS } else { -PARTS_POINTS };
     let band = if a.band != b.band { BAND_POINTS } else { 0.0 };
@@ -221,7 +230,7 @@ fn matched(book: &ChainBook, a: &Ring, b: &Ring) -> Option<RingMatch> {
     let loose = if a.loose { a } else { b };
     let closes = loose.loose && fit == RingFit::Gathered;
     let closing = closes.then(|| book.closing(&loose.walks[0])).flatten();
-    Some(RingMatch { parts, closing, score, runs: [a.runs(), b.runs()].concat() })
+    Some(RingMatch { parts, closing, score, runs: [a.runs(), b.runs()].concat(), between: [a.part, b.part] })
 }
 
 /// The best way to lay two rings along each other, part by part, and by how much the shares of these differ (logarithm).

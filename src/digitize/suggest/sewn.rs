@@ -58,6 +58,24 @@ impl<'o> SeamsFound<'o> {
         Self { outlines, seams, centers, joined, up: up(outlines), parts, symmetric }
     }
 
+    /// Whether a seam joins the same side of two pieces that are each other's mirror image: the left and the right of
+    /// one. Nothing but a straight center is sewn so.
+    pub(super) fn is_of_twins(&self, seam: &Match) -> bool {
+        let [a, b] = [seam.a.piece, seam.b.piece];
+        let lengths = |piece: usize| -> Vec<f64> {
+            let own = |part: &Vec<usize>| {
+                part.iter().map(|&edge| self.outlines[piece].edges[edge].path.length()).sum::<f64>()
+            };
+            self.parts[piece].iter().map(own).collect()
+        };
+        let place = |run: &EdgeRun| self.parts[run.piece].iter().position(|part| part.contains(&run.edges[0]));
+        let (Some(i), Some(k)) = (place(&seam.a), place(&seam.b)) else { return false };
+        let (one, other) = (lengths(a), lengths(b));
+        let count = one.len();
+        let same = |step: usize| (one[(i + step) % count] - other[(k + count - step) % count]).abs() <= SYMMETRIC;
+        a != b && count == other.len() && !self.symmetric[a] && (0..count).all(same)
+    }
+
     /// Whether the sides of a seam come as many corners after those of a seam that is found as each other, one clockwise
     /// and one against it, as sides come after shoulders in front and behind.
     pub(super) fn is_in_step(&self, seam: &Match) -> bool {
@@ -108,6 +126,11 @@ impl<'o> SeamsFound<'o> {
     pub(super) fn is_low(&self, piece: usize, share: f64) -> bool {
         let across = Vec2::new(-self.up.y, self.up.x);
         self.extent(piece, self.up) <= share * self.extent(piece, across)
+    }
+
+    /// The larger extent of a piece, metres.
+    pub(super) fn size(&self, piece: usize) -> f64 {
+        self.extent(piece, Vec2::x()).max(self.extent(piece, Vec2::y()))
     }
 
     /// Extent of a piece's corners along a direction.
