@@ -399,6 +399,38 @@ fn hems_are_told_by_their_allowance() {
     assert!(offered(&made).contains(&("front.b".to_owned(), "back.b".to_owned())), "{:?}", made.suggestions);
 }
 
+/// Sizes that an import wrote beside each other are not sewn to each other in the studio either.
+#[test]
+fn a_garment_file_of_several_sizes_is_offered_seams_within_each() {
+    let size = |size: usize, name: &str, more: f64| {
+        let path = format!("M 0 0 H {} L {} {} H 0 Z", 200.0 + more, 220.0 + more, 300.0 + more);
+        Traced {
+            name: format!("{name}_{}", 38 + 2 * size),
+            sew: vec![(None, Path::parse_absolute(&path, 1e-3).expect("a path"))],
+            grain: Some([point([50.0, 50.0]), point([50.0, 150.0])]),
+            cut_how: Some(CutKind::Pair),
+            size: Some(size),
+            size_name: Some((38 + 2 * size).to_string()),
+            ..Traced::default()
+        }
+    };
+    let pieces = [size(0, "front", 0.0), size(0, "back", 0.0), size(1, "front", 0.5), size(1, "back", 0.5)];
+    let made = garment_file("skirt", &pieces);
+    let offered = toile::digitize::suggestions(&made.file);
+    assert!(!offered.is_empty());
+    let sizes = |edges: &[String]| -> Vec<String> {
+        edges
+            .iter()
+            .filter(|edge| *edge != "mirror")
+            .map(|edge| edge.chars().skip_while(|c| *c != '_').take(3).collect())
+            .collect()
+    };
+    for own in &offered {
+        let of_both = sorted([sizes(&own.sew), sizes(&own.to)].concat());
+        assert_eq!(of_both.len(), 1, "{own:?}");
+    }
+}
+
 /// The studio offers the same seams for an imported file as the import did, and fewer once some are sewn.
 #[test]
 fn a_garment_file_is_offered_what_its_drawing_was() {

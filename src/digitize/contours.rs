@@ -44,7 +44,7 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Dr
         let own: Vec<Stroke> = strokes.iter().filter(own).cloned().collect();
         let mut drawing = one_size(&own, remarks, sheet);
         for piece in &mut drawing.pieces {
-            piece.size = Some(k);
+            (piece.size, piece.size_name) = (Some(k), Some(size.clone()));
             if !piece.name.contains(size.as_str()) {
                 piece.name = format!("{}_{size}", piece.name);
             }
@@ -94,7 +94,10 @@ fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Draw
         traced.number = titles.number.map(|(_, number)| number);
         traced.name = title.map_or(traced.name, |(_, title)| title);
         drawing.left_out.extend(beyond_seam(&traced.name, &beyond));
-        drawing.pieces.push(Traced { cut_how, copies, on_fold, size: contours.size(o), ..traced });
+        let size = contours.size(o);
+        // Of sizes without a name the smallest is 1.
+        let size_name = size.map(|smaller| (smaller + 1).to_string());
+        drawing.pieces.push(Traced { cut_how, copies, on_fold, size, size_name, ..traced });
     }
     drawing.left_out.extend(contours.too_small(&outer, &mut drawing.lost));
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours.all[o].owns(line));

@@ -1,5 +1,6 @@
 //! The garment file of traced pieces.
 
+use super::buttons::with_buttons;
 use super::darts::{ClosedDart, closed};
 use super::edges::{FileEdge, edges, nearest_edge};
 use super::fasteners::{Fastened, closures};
@@ -10,6 +11,7 @@ use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;
+use super::sizes::size_note;
 use super::stated::{at_no_place, file_point};
 use super::suggest::{Guess, Outline, Suggestion, suggest};
 use super::{Material, Traced};
@@ -64,7 +66,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
             ));
         }
         let piece = whole.as_ref().unwrap_or(piece);
-        let piece = piece.at_origin();
+        let piece = with_buttons(piece).unwrap_or_else(|| piece.clone()).at_origin();
         let (mut file, edges) = piece_file(&name, &piece, &mut notes);
         fastened.push(Fastened::new(&file, &piece.fasteners));
         // The only fabric is that of every piece.
@@ -240,10 +242,11 @@ fn fold_of(piece: &PieceFile) -> Option<&str> {
     }
 }
 
-/// What the drawing says of a piece that a garment file has no key for: its number and its material.
+/// What the drawing says of a piece that a garment file has no key for: its number, its material and its size.
 fn noted(piece: &Traced) -> Option<String> {
     let number = piece.number.as_ref().map(|number| format!("no. {} of the drawing", plain(number)));
-    let said: Vec<String> = number.into_iter().chain(piece.material.as_ref().and_then(note)).collect();
+    let size = piece.size_name.as_ref().map(|size| size_note(&plain(size)));
+    let said: Vec<String> = number.into_iter().chain(piece.material.as_ref().and_then(note)).chain(size).collect();
     (!said.is_empty()).then(|| said.join(", "))
 }
 

@@ -4,6 +4,7 @@
 //! down. [`garment_file`] makes a `GarmentFile` of them that lacks only the seams: outlines are split into named edges
 //! at corners and notches, allowances are measured, and [`Suggestion`]s list edges that may be sewn together.
 
+mod buttons;
 mod chain;
 mod contour;
 mod contours;
@@ -256,6 +257,8 @@ pub struct Traced {
     pub corners: Vec<(String, Corner)>,
     /// Number of its size, where sizes are drawn over one another: pieces of two sizes are never sewn to each other.
     pub size: Option<usize>,
+    /// The name of that size.
+    pub size_name: Option<String>,
 }
 
 impl Traced {

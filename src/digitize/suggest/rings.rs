@@ -110,7 +110,9 @@ fn rings(book: &ChainBook, chained: &[ChainMatch], runs: &[super::run::EdgeRun])
     }
     for chain in chained {
         let pieces: Vec<usize> = chain.runs().map(|run| runs[run].piece).collect();
-        pieces.windows(2).for_each(|pair| drop(together.join(pair[0] as u32, pair[1] as u32)));
+        for pair in pieces.windows(2) {
+            together.join(pair[0] as u32, pair[1] as u32);
+        }
     }
     let mut rings: Vec<Ring> = Vec::new();
     let is_loose = |walk: &RunChain| match walk.runs[..] {
