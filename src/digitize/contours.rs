@@ -6,7 +6,7 @@ use super::follow::follows;
 use super::frames::{DrawingFrame, SheetLine};
 use super::holes::holes_of;
 use super::joined::{beyond_seam, nearly_closed, unclosed};
-use super::said::{Said, said};
+use super::said::{Said, said, says_alike};
 use super::sizes::{are_sizes, sizes};
 use super::sorted::Sorted;
 use super::titles::titles;
@@ -86,6 +86,7 @@ fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Draw
             None => (None, 1, None),
         };
         let (mut traced, beyond) = piece(contour, &inner, &rest);
+        traced.alike = said_by.is_some_and(|i| says_alike(&remarks[i].text));
         let titles = titles(remarks, |at| contour.holds(at));
         // Groups and layers that are named tell more than words do.
         let title = titles.title.filter(|_| traced.name.is_empty());

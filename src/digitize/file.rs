@@ -5,7 +5,8 @@ use super::darts::{ClosedDart, closed};
 use super::edges::{FileEdge, edges, nearest_edge};
 use super::fasteners::{Fastened, closures};
 use super::fish_eyes::taken;
-use super::folds::{fold_edge, merged, opened};
+use super::folds::{fold_edge, merged, opened, written_fold};
+use super::hands::handed;
 use super::holes::Hole;
 use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
@@ -21,8 +22,6 @@ use crate::pattern::{
     NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Value,
 };
 
-/// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
-const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
 /// Places along an edge where its allowance is measured, as shares of its length.
@@ -67,6 +66,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         }
         let piece = whole.as_ref().unwrap_or(piece);
         let piece = with_buttons(piece).unwrap_or_else(|| piece.clone()).at_origin();
+        let piece = handed(piece, &name, &mut notes);
         let (mut file, edges) = piece_file(&name, &piece, &mut notes);
         fastened.push(Fastened::new(&file, &piece.fasteners));
         // The only fabric is that of every piece.
@@ -389,36 +389,6 @@ fn lines(piece: &Traced, wedges: &[ClosedDart]) -> Vec<LineFile> {
         lines.push(add("drill", &Path::line(p - half, p + half), LineKind::Mark("drill".to_owned())));
     }
     lines
-}
-
-/// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
-/// straight one that runs along the grain.
-fn written_fold(
-    name: &str,
-    count: usize,
-    edges: &[FileEdge],
-    grain: Option<[Vec2; 2]>,
-    notes: &mut Vec<String>,
-) -> Option<String> {
-    let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
-    let is_along = |e: &&FileEdge| {
-        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
-        e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
-    };
-    let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
-    let mut straight = edges.iter().filter(is_along);
-    let only = straight.next().filter(|_| straight.next().is_none());
-    let fold = called.or(only).map(|e| e.name.clone());
-    let more = if count > 1 {
-        format!("; it is cut {count} times: write a piece 'like' it for each other")
-    } else {
-        String::new()
-    };
-    notes.push(match &fold {
-        Some(edge) => format!("'{name}' is to be cut on the fold: its edge '{edge}' is taken for that{more}"),
-        None => format!("'{name}' is to be cut on the fold: say at which edge, 'cut: fold EDGE'{more}"),
-    });
-    fold
 }
 
 /// The longest stretch of an edge beside the mouths of its darts.

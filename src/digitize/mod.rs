@@ -16,6 +16,7 @@ mod fish_eyes;
 mod folds;
 mod follow;
 mod frames;
+mod hands;
 mod holes;
 mod joined;
 mod lozenge;
@@ -243,6 +244,8 @@ pub struct Traced {
     pub cut_how: Option<CutKind>,
     /// Number of repetitions of that: a pair cut twice from folded cloth gives two of either hand.
     pub copies: usize,
+    /// Whether the drawing says that those which are cut are alike, not left and right.
+    pub alike: bool,
     /// Number of times it is cut on the fold, if that is written on it. The line is [`Self::mirror`], if it is drawn.
     pub on_fold: Option<usize>,
     /// Numbers of the remarks that were read of it: how it is cut, its title, its number.

@@ -404,12 +404,19 @@ fn group_name(node: Node) -> Option<GroupName> {
     if let Some(part) = name.strip_prefix("fs-stack-").or(name.strip_prefix("fs-part-")) {
         return Some(GroupName { name: part.rsplit('.').next().unwrap_or(part).to_owned(), is_piece: true });
     }
-    // Layers hold pieces; they are none.
+    // Layers that hold groups or closed lines with names hold pieces; they are none.
     let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
-    let is_label = |c: Node| c.attributes().any(|a| a.name() == "label");
+    let is_piece = |c: Node| c.attributes().any(|a| a.name() == "label") && is_closed_shape(c);
     let holds = name.starts_with("fs-")
-        || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_label(c));
+        || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_piece(c));
     Some(GroupName { name: name.to_owned(), is_piece: !holds })
+}
+
+/// Whether an element is a closed line by itself.
+fn is_closed_shape(node: Node) -> bool {
+    let ends_closed = || node.attribute("d").is_some_and(|d| d.trim_end().ends_with(['z', 'Z']));
+    let name = node.tag_name().name();
+    SHAPES.contains(&name) || name == "polygon" || name == "path" && ends_closed()
 }
 
 /// Names that programs give, without their numbers: `g123`, `path45-6`, `layer1`, FreeSewing's `fs-7`.
