@@ -80,9 +80,10 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         let warp = arrow.map_or(Some(Vec2::y()), |arrow| arrow.try_normalize(0.0));
         let material = piece.material.as_ref().map(name_of);
         let mirrored = pair || fold.is_some();
+        let single = file.cut.as_ref().is_none_or(|cut| cut.value == CutKind::One) && piece.copies <= 1;
         told.push((name.clone(), piece.drawn.is_some()));
         let size = piece.size;
-        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, warp, material, size });
+        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, single, warp, material, size });
         pieces.push(file);
         pieces.extend(copies);
     }

@@ -96,12 +96,20 @@ fn best(
         found.score -= if sewn.is_same_level(&found) { SAME_LEVEL } else { 0.0 };
         found.score -= if sewn.is_of_twins(&found) && !a.path.is_straight() { TWINS } else { 0.0 };
         found.score -= if strips_apart(outlines, sewn, a, b) { STRIPS } else { 0.0 };
-        found.score -= if !found.opposed && sewn.symmetric[a.piece] && sewn.symmetric[b.piece] { TURNED } else { 0.0 };
+        found.score -= if !found.opposed && is_turned(outlines, sewn, a, b) { TURNED } else { 0.0 };
         found
     });
     // Courses and notches tell which ends meet; else what lies beside the ends.
     let cost = |found: &Match| 0.4 * sewn.unlikeness(found) - found.score;
     ways.min_by(|x, y| cost(x).total_cmp(&cost(y)))
+}
+
+/// Whether a seam is the same the other way round: both pieces are their own mirror images, or one is, and of the other
+/// there is a left and a right.
+fn is_turned(outlines: &[Outline], sewn: &SeamsFound, a: &EdgeRun, b: &EdgeRun) -> bool {
+    let whole = |run: &EdgeRun| !sewn.edge_images(run.piece).is_empty();
+    let both = sewn.is_symmetric(a.piece) && sewn.is_symmetric(b.piece);
+    both || whole(a) && outlines[b.piece].mirrored || whole(b) && outlines[a.piece].mirrored
 }
 
 /// Whether two runs are the short ends of strips of which one is cut more often: bindings of a neck and of arms are as

@@ -32,7 +32,7 @@ pub use of_file::suggestions;
 use run::{EdgeRun, runs};
 use sewn::SeamsFound;
 use taking::{left, take_chains, take_matches, take_rings};
-use written::written;
+use written::{Sides, written};
 pub use written::{Suggestion, sewn};
 
 /// Edges of a seam differ by no more than this share of their length.
@@ -54,6 +54,8 @@ pub(super) struct Outline {
     pub(super) pair: bool,
     /// Whether a mirror image of it is cut, too: as the other of a pair, or as the other half.
     pub(super) mirrored: bool,
+    /// Whether it is cut once as drawn, and is no half.
+    pub(super) single: bool,
     /// Direction of the warp, of length 1.
     pub(super) warp: Option<Vec2>,
     /// The material it is cut from, if that is told.
@@ -120,8 +122,11 @@ fn of_one_size(outlines: &[Outline]) -> (Vec<Suggestion>, Vec<Guess>) {
     } else {
         roughly
     };
-    let suggestions = written(outlines, &found.sides, &found.seams, &found.chained, &found.mirrored);
-    (suggestions, guesses(outlines, &found.sides, &found.chained, &found.mirrored))
+    let guesses = guesses(outlines, &found.sides, &found.chained, &found.mirrored);
+    let sewn = SeamsFound::new(outlines);
+    let sides = Sides::new(outlines, |piece| sewn.edge_images(piece), &guesses);
+    let suggestions = written(outlines, &sides, &found.sides, &found.seams, &found.chained, &found.mirrored);
+    (suggestions, guesses)
 }
 
 /// All that may be sewn.

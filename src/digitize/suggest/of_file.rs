@@ -74,6 +74,7 @@ fn outline(piece: &PieceFile, unit: Unit) -> Option<Outline> {
         allowances: edges.iter().map(|edge| allowance(piece, &edge.name, unit)).collect(),
         edges,
         mirrored: pair || fold.is_some(),
+        single: piece.cut.as_ref().is_none_or(|cut| cut.value == CutKind::One),
         fold,
         pair,
         warp: arrow.map_or(Some(Vec2::y()), |[tail, head]| (head - tail).try_normalize(0.0)),

@@ -46,16 +46,45 @@ pub(super) struct SeamsFound<'o> {
     up: Vec2,
     /// The parts of each outline from corner to corner, without the legs of darts, clockwise.
     parts: Vec<Vec<Vec<usize>>>,
-    /// Whether each piece is its own mirror image.
-    pub(super) symmetric: Vec<bool>,
+    /// Of each piece that is its own mirror image the numbers of the parts that those of `parts` are the images of.
+    images: Vec<Option<Vec<usize>>>,
 }
 
 impl<'o> SeamsFound<'o> {
     pub(super) fn new(outlines: &'o [Outline]) -> Self {
         let parts: Vec<Vec<Vec<usize>>> = outlines.iter().map(sewn_parts).collect();
-        let symmetric = outlines.iter().zip(&parts).map(|(outline, parts)| is_symmetric(outline, parts)).collect();
+        let images = outlines.iter().zip(&parts).map(|(outline, parts)| images(outline, parts)).collect();
         let (seams, centers, joined) = (Vec::new(), Vec::new(), Vec::new());
-        Self { outlines, seams, centers, joined, up: up(outlines), parts, symmetric }
+        Self { outlines, seams, centers, joined, up: up(outlines), parts, images }
+    }
+
+    /// Whether a piece is its own mirror image.
+    pub(super) fn is_symmetric(&self, piece: usize) -> bool {
+        self.images[piece].is_some()
+    }
+
+    /// The edges of a piece that is cut once and is its own mirror image, each with its image.
+    pub(super) fn edge_images(&self, piece: usize) -> Vec<(usize, usize)> {
+        let (Some(images), true) = (&self.images[piece], self.outlines[piece].single) else { return Vec::new() };
+        let parts = &self.parts[piece];
+        let of = |(k, image): (usize, &usize)| {
+            let backward = parts[*image].iter().rev().copied();
+            parts[k].iter().copied().zip(backward).collect::<Vec<_>>()
+        };
+        images.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// Whether a seam of a whole piece with one of which there is a left and a right is sewn on its other side, too, to
+    /// this run.
+    fn has_image(&self, run: &EdgeRun) -> bool {
+        let own = self.edge_images(run.piece);
+        let image = |edge: &usize| own.iter().find(|(own, _)| own == edge).map(|(_, image)| *image);
+        let meets = |side: &EdgeRun, other: &EdgeRun| {
+            side.piece == run.piece
+                && self.outlines[other.piece].mirrored
+                && side.edges.iter().filter_map(image).any(|edge| run.edges.contains(&edge))
+        };
+        self.seams.iter().any(|seam| meets(&seam.a, &seam.b) || meets(&seam.b, &seam.a))
     }
 
     /// Whether a seam joins the same side of two pieces that are each other's mirror image: the left and the right of
@@ -73,7 +102,7 @@ impl<'o> SeamsFound<'o> {
         let (one, other) = (lengths(a), lengths(b));
         let count = one.len();
         let same = |step: usize| (one[(i + step) % count] - other[(k + count - step) % count]).abs() <= SYMMETRIC;
-        a != b && count == other.len() && !self.symmetric[a] && (0..count).all(same)
+        a != b && count == other.len() && !self.is_symmetric(a) && (0..count).all(same)
     }
 
     /// Whether the sides of a seam come as many corners after those of a seam that is found as each other, one clockwise
@@ -142,7 +171,9 @@ impl<'o> SeamsFound<'o> {
 
     /// Whether a seam has an edge of a run, also one down the center.
     pub(super) fn has(&self, run: &EdgeRun) -> bool {
-        self.is_center(run) || self.seams.iter().any(|seam| seam.a.meets(run) || seam.b.meets(run))
+        self.is_center(run)
+            || self.seams.iter().any(|seam| seam.a.meets(run) || seam.b.meets(run))
+            || self.has_image(run)
     }
 
     /// Adds seams between the halves of a pair.
@@ -304,14 +335,29 @@ fn sewn_parts(outline: &Outline) -> Vec<Vec<usize>> {
     parts
 }
 
-/// Whether an outline is its own mirror image: its parts are as long as each other from some part on both ways.
-fn is_symmetric(outline: &Outline, parts: &[Vec<usize>]) -> bool {
+/// The numbers of the parts that those of an outline are the mirror images of, if it is its own: from some part on they
+/// are as long as each other both ways.
+fn images(outline: &Outline, parts: &[Vec<usize>]) -> Option<Vec<usize>> {
     let lengths: Vec<f64> =
         parts.iter().map(|part| part.iter().map(|&edge| outline.edges[edge].path.length()).sum()).collect();
     let count = lengths.len();
-    let same = |a: usize, b: usize| (lengths[a % count] - lengths[b % count]).abs() <= SYMMETRIC;
-    // The axis goes through the middle of a part or of a corner.
-    (0..2 * count).any(|sum| (0..count).all(|k| same(k, sum + count - k)))
+    let same = |a: usize, b: usize| {
+        (lengths[a % count] - lengths[b % count]).abs() <= SYMMETRIC && parts[a % count].len() == parts[b % count].len()
+    };
+    // The axis goes through the middle of a part or of a corner; the one along the warp is the wearer's.
+    let axes = (0..count).filter(|sum| (0..count).all(|k| same(k, sum + count - k)));
+    let upright = |sum: &usize| {
+        let warp = outline.warp.unwrap_or(Vec2::y());
+        let middle = |k: usize| {
+            let edges = &parts[k % count];
+            let ends = [&outline.edges[edges[0]].path, &outline.edges[edges[edges.len() - 1]].path];
+            (ends[0].start() + ends[1].end()) / 2.0
+        };
+        // From a part to its image the way goes across the warp.
+        (0..count).map(|k| (middle(k) - middle(sum + count - k)).dot(&warp).abs()).sum::<f64>()
+    };
+    let axis = axes.min_by(|a, b| upright(a).total_cmp(&upright(b)))?;
+    Some((0..count).map(|k| (axis + count - k) % count).collect())
 }
 
 /// The end of the edge that a run starts or ends with.

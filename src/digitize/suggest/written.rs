@@ -2,10 +2,11 @@
 
 use super::Outline;
 use super::chains::{ChainMatch, RunChain};
+use super::guess::Guess;
 use super::matches::Match;
 use super::run::EdgeRun;
 use crate::geometry::MM;
-use crate::pattern::{CutKind, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Spot};
+use crate::pattern::{CutKind, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Side, Spot};
 
 /// A longer side is eased in up to this share, and gathered beyond it.
 const EASED: f64 = 0.08;
@@ -123,6 +124,7 @@ fn lies_on_fold(piece: &PieceFile, edge: &str) -> bool {
 /// All that was found, those that most speaks for first.
 pub(super) fn written(
     outlines: &[Outline],
+    sides: &Sides,
     runs: &[EdgeRun],
     matches: &[Match],
     chained: &[ChainMatch],
@@ -157,7 +159,62 @@ pub(super) fn written(
         found.push((vec![run.piece], suggestion(sew, to, [run.length(); 2], *score, std::slice::from_ref(reason))));
     }
     found.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
-    named(outlines, found)
+    let found =
+        found.into_iter().flat_map(|(pieces, own)| sides.both(own).into_iter().map(move |own| (pieces.clone(), own)));
+    named(outlines, found.collect())
+}
+
+/// Edges of pieces of which there is a left and a right, and of whole pieces that they are sewn to.
+pub(super) struct Sides {
+    /// Names of pieces with a left and a right, each with the one that is drawn.
+    drawn: Vec<(String, Side)>,
+    /// Names of edges of whole pieces, each with that of its mirror image.
+    images: Vec<(String, String)>,
+}
+
+impl Sides {
+    pub(super) fn new(outlines: &[Outline], images: impl Fn(usize) -> Vec<(usize, usize)>, guesses: &[Guess]) -> Self {
+        let full =
+            |piece: usize, edge: usize| format!("{}.{}", outlines[piece].piece, outlines[piece].edges[edge].name);
+        let of =
+            |piece: usize| images(piece).into_iter().map(move |(edge, image)| (full(piece, edge), full(piece, image)));
+        let drawn = |(outline, guess): (&Outline, &Guess)| {
+            outline.mirrored.then(|| (outline.piece.clone(), guess.drawn.unwrap_or(Side::Left)))
+        };
+        Self {
+            drawn: outlines.iter().zip(guesses).filter_map(drawn).collect(),
+            images: (0..outlines.len()).flat_map(of).collect(),
+        }
+    }
+
+    /// A seam of a piece with a left and a right to one side of a whole piece as two seams, one for each side.
+    fn both(&self, own: Suggestion) -> Vec<Suggestion> {
+        let edges: Vec<&String> = own.sew.iter().chain(&own.to).collect();
+        let is_told = |edge: &String| edge == "mirror" || edge.contains('@') || edge.matches('.').count() > 1;
+        let image = |edge: &str| self.images.iter().find(|(own, _)| own == edge).map(|(_, image)| image.clone());
+        let drawn = |edge: &str| {
+            let (piece, _) = edge.split_once('.')?;
+            self.drawn.iter().find(|(name, _)| name == piece).map(|(_, side)| *side)
+        };
+        let aside = |edge: &&String| image(edge).is_some_and(|image| image != ***edge);
+        let has_both = edges.iter().any(|edge| drawn(edge).is_some()) && edges.iter().any(aside);
+        if edges.iter().any(|edge| is_told(edge)) || !has_both {
+            return vec![own];
+        }
+        let side = |as_drawn: bool| {
+            let edge = |edge: &String| match (drawn(edge), image(edge)) {
+                (Some(side), _) => {
+                    let side = if as_drawn { side } else { side.other() };
+                    edge.replacen('.', &format!(".{}.", side.letter()), 1)
+                }
+                (None, Some(image)) if !as_drawn => image,
+                _ => edge.clone(),
+            };
+            let [sew, to] = [&own.sew, &own.to].map(|edges| edges.iter().map(edge).collect());
+            Suggestion { sew, to, ..own.clone() }
+        };
+        vec![side(true), side(false)]
+    }
 }
 
 fn suggestion(sew: Vec<String>, to: Vec<String>, lengths: [f64; 2], score: f64, reasons: &[String]) -> Suggestion {
