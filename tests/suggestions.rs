@@ -267,8 +267,60 @@ fn the_seams_of_garmentcodes_patterns_are_offered() {
         let drawn = drawings(&loaded.file, &loaded.garment);
         garments.push((name, loaded.file, drawn));
     }
-    let [right, offered, ..] = of_garments(&garments);
-    assert!(right * 100 >= offered * 85, "{right} of {offered}");
+    let [right, offered, found, seams] = of_garments(&garments);
+    assert!(right * 100 >= offered * 85 && found * 100 >= seams * 70, "{right} of {offered}, {found} of {seams}");
+}
+
+/// Two panels alike, of which the drawing tells no grain: their sides are sewn, not their waists and hems.
+#[test]
+fn panels_alike_are_sewn_at_their_sides() {
+    let panel = |name: &str| Traced {
+        name: name.to_owned(),
+        sew: vec![(None, Path::parse_absolute("M 20 0 H 220 L 240 500 H 0 Z", 1e-3).expect("a path"))],
+        ..Traced::default()
+    };
+    let mut offered = offered(&garment_file("skirt", &[panel("front"), panel("back")]));
+    offered.sort();
+    let seam = |a: &str, b: &str| (a.to_owned(), b.to_owned());
+    assert_eq!(offered, [seam("front.b", "back.d"), seam("front.d", "back.b")]);
+}
+
+/// A pair of fronts is sewn to both sides of a back that is drawn whole.
+#[test]
+fn left_and_right_are_sewn_to_both_sides_of_a_whole_piece() {
+    let whole = Drawn { cut: None, ..Drawn::pair("back", "M 100 20 L 130 0 L 210 30 L 230 400 H 0 L 20 30 L 100 0 Z") };
+    let path = "M 40 90 L 70 0 L 150 30 L 170 400 H 20 L 40 90 Z";
+    let front = Drawn::pair("front", path);
+    let back = "M 80 0 L 115 10 L 150 0 L 230 30 L 250 400.0547 H -20 L 0 30 Z";
+    let made = made(&[front, Drawn { path: back, ..whole }]);
+    let sides: Vec<&Suggestion> = made.suggestions.iter().filter(|own| own.lengths[0] > 0.3).collect();
+    assert_eq!(sides.len(), 2, "{:?}", made.suggestions);
+    let pieces = |own: &Suggestion| {
+        let all = own.sew.iter().chain(&own.to);
+        let (front, back): (Vec<&String>, Vec<&String>) = all.partition(|edge| edge.starts_with("front"));
+        (front[0].clone(), back[0].clone())
+    };
+    let [one, other] = [pieces(sides[0]), pieces(sides[1])];
+    assert!(one.0.starts_with("front.L.") && other.0.starts_with("front.R."), "{one:?} {other:?}");
+    assert_ne!(one.1, other.1);
+}
+
+/// What is offered makes a garment when it is taken over as it stands, also bands that lap and cuffs that close.
+#[test]
+fn what_is_offered_for_makers_designs_can_be_sewn() {
+    for name in [
+        "tests/designs/skirt.yaml",
+        "tests/designs/hoodie.yaml",
+        "tests/designs/dress.yaml",
+        "patterns/gore_skirt.yaml",
+        "patterns/tshirt.yaml",
+    ] {
+        let loaded = read(FilePath::new(name)).unwrap_or_else(|e| panic!("{e}"));
+        let made = garment_file("garment", &stripped(&drawings(&loaded.file, &loaded.garment)));
+        let sewn = toile::digitize::sewn(&made.file, &made.suggestions);
+        let yaml = toile::io::garment::write(&sewn).expect("YAML");
+        toile::io::garment::read_text("garment", name, &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"));
+    }
 }
 
 /// Half of a bodice on the fold: neckline, shoulder, armhole, side and hem. `bend` moves the armhole, which has its

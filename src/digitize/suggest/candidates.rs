@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use super::corner::turn_before;
-use super::matches::{Match, dart, eased, matches, to_grain};
+use super::matches::{Match, dart, eased, matches, to_grain, ways};
 use super::run::{EdgeRun, spans};
 use super::sewn::SeamsFound;
 use super::{Outline, SHARE, Tolerance};
@@ -14,6 +14,8 @@ const TWINS: f64 = 3.0;
 /// share of the strips.
 const STRIPS: f64 = 1.5;
 const STRIP: f64 = 0.25;
+/// The end of a strip is as long as the strip is wide, to this share.
+const STRIP_END: f64 = 0.9;
 /// Points against the mirror image of a piece that is its own.
 const TURNED: f64 = 0.7;
 /// Points against a seam that turns one of two upright pieces upside down.
@@ -53,8 +55,12 @@ pub(super) fn eased_candidates(
 ) -> Vec<Match> {
     let of = |(k, a): (usize, &EdgeRun)| {
         let in_step = |found: &Match| sewn.is_in_step(found);
-        let pairs = left[k + 1..].iter().filter_map(|b| eased(outlines, [a, b], tolerance, in_step));
-        pairs.filter(|found| !sewn.is_upside_down(found)).collect::<Vec<Match>>()
+        let way = |b: &EdgeRun| {
+            let both = ways(outlines, a, b).iter();
+            let mut fits = both.filter_map(|way| eased(outlines, [a, b], tolerance, *way, in_step));
+            fits.find(|found| !sewn.is_upside_down(found))
+        };
+        left[k + 1..].iter().filter_map(way).collect::<Vec<Match>>()
     };
     let mut found: Vec<Match> = left.iter().enumerate().flat_map(of).collect();
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
@@ -115,8 +121,12 @@ fn is_turned(outlines: &[Outline], sewn: &SeamsFound, a: &EdgeRun, b: &EdgeRun) 
 /// Whether two runs are the short ends of strips of which one is cut more often: bindings of a neck and of arms are as
 /// wide as each other.
 fn strips_apart(outlines: &[Outline], sewn: &SeamsFound, a: &EdgeRun, b: &EdgeRun) -> bool {
-    let is_end = |run: &EdgeRun| run.length() <= STRIP * sewn.size(run.piece);
-    a.piece != b.piece && outlines[a.piece].pair != outlines[b.piece].pair && is_end(a) && is_end(b)
+    let is_end = |run: &EdgeRun| {
+        let [narrow, wide] = sewn.sizes(run.piece);
+        run.length() <= STRIP * wide && narrow <= run.length() / STRIP_END
+    };
+    let more = |one: &EdgeRun, other: &EdgeRun| outlines[one.piece].pair && outlines[other.piece].single;
+    a.piece != b.piece && (more(a, b) || more(b, a)) && is_end(a) && is_end(b)
 }
 
 /// The angle inside the piece at the corner that two runs follow each other round.

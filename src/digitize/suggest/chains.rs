@@ -20,6 +20,8 @@ const HOOD: f64 = 0.08;
 const BENT: f64 = 0.08;
 /// Edges that lie no farther from the grain than this (radians, 20 degrees) run along it.
 const ALONG_GRAIN: f64 = 0.35;
+/// Points for a cap and an armhole that are highest in the same place.
+const AT_TOP: f64 = 0.5;
 /// A chain is an upper or a lower edge whose direction outwards is up or down to this: the cosine of 15 degrees.
 const LEVEL: f64 = 0.966;
 /// Joints of a chain that lie so near to a joint or a notch of the other side (metres) lie opposite it.
@@ -250,10 +252,12 @@ impl ChainBook<'_> {
         };
         let opposite = a.joints.iter().filter(|&&at| near(at * scale, &places(b))).count();
         let across = b.joints.iter().filter(|&&at| near(at / scale, &places(a))).count();
+        let top = self.by_top(a, b);
         let apex = apex(self, b).map_or(0.0, |apex| {
             let off = |at: &f64| (at * scale - apex).abs() / b.length;
             a.joints.iter().map(off).fold(0.5, f64::min)
         });
+        found.score += top;
         if matched > 0 {
             found.add(1.5 + 0.75 * (matched - 1).min(2) as f64, "notches match");
         }
@@ -262,6 +266,24 @@ impl ChainBook<'_> {
         }
         found.score -= 0.3 * alone.saturating_sub(opposite + across).min(3) as f64 + apex;
         Some(())
+    }
+
+    /// Points for a cap that is highest where the chain that it is sewn to is, at the shoulder, or against it.
+    fn by_top(&self, a: &RunChain, b: &RunChain) -> f64 {
+        let ([first, .., last], [_], Some(top)) = (&a.runs[..], &b.runs[..], apex(self, b)) else { return 0.0 };
+        let rise = |&(run, forward): &(usize, bool)| {
+            let path = &self.runs[run].path;
+            let up = (path.end() - path.start()).dot(&self.sewn.up);
+            if forward { up } else { -up }
+        };
+        let (run, forward) = b.runs[0];
+        let path = &self.runs[run].path;
+        let at = if forward { top } else { path.length() - top };
+        let cap = (path.point(at) - (path.start() + path.end()) / 2.0).dot(&self.sewn.up);
+        if a.ends != ChainEnds::Closed || rise(first) * rise(last) >= 0.0 {
+            return 0.0;
+        }
+        if (rise(first) > 0.0) == (cap > 0.0) { AT_TOP } else { -AT_TOP }
     }
 
     fn by_ends(&self, found: &mut ChainMatch) {

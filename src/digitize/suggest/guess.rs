@@ -4,6 +4,7 @@
 use super::Outline;
 use super::chains::ChainMatch;
 use super::corner::is_fold;
+use super::matches::Match;
 use super::run::EdgeRun;
 use crate::geometry::{Vec2, box_or_origin};
 use crate::pattern::{PlaceMeaning, PlaceWord, Side};
@@ -33,6 +34,7 @@ pub(super) fn guesses(
     runs: &[EdgeRun],
     chained: &[ChainMatch],
     mirrored: &[(EdgeRun, f64, String)],
+    matches: &[Match],
 ) -> Vec<Guess> {
     let mut guesses = vec![Guess::default(); outlines.len()];
     let mut facing: Vec<Option<GuessedSide>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
@@ -78,7 +80,35 @@ pub(super) fn guesses(
             guess.drawn = Some(if lies_right == (facing == GuessedSide::Front) { Side::Left } else { Side::Right });
         }
     }
+    spread(outlines, runs, chained, matches, &mut guesses);
     guesses
+}
+
+/// Tells which of a left and a right is drawn from the pieces that a piece is sewn to: where both are walked against each
+/// other the drawn ones belong to each other, else one of them and the mirror image of the other. Of pieces of which
+/// nothing is told the first is a left one.
+fn spread(outlines: &[Outline], runs: &[EdgeRun], chained: &[ChainMatch], matches: &[Match], guesses: &mut [Guess]) {
+    let mut same: Vec<([usize; 2], bool)> = matches.iter().map(|m| ([m.a.piece, m.b.piece], m.opposed)).collect();
+    for chain in chained {
+        let pair = |a: &(usize, bool), b: &(usize, bool)| ([runs[a.0].piece, runs[b.0].piece], a.1 != b.1);
+        same.extend(chain.a.runs.iter().flat_map(|a| chain.b.runs.iter().map(move |b| pair(a, b))));
+    }
+    same.retain(|([a, b], _)| a != b && outlines[*a].mirrored && outlines[*b].mirrored);
+    let seeds: Vec<usize> = (0..guesses.len()).filter(|&k| guesses[k].drawn.is_some()).collect();
+    for seed in seeds.into_iter().chain((0..outlines.len()).filter(|&k| outlines[k].mirrored)) {
+        let mut open = vec![(seed, guesses[seed].drawn.unwrap_or(Side::Left))];
+        while let Some((piece, side)) = open.pop() {
+            guesses[piece].drawn = Some(side);
+            for ([a, b], alike) in &same {
+                let next = if *a == piece { *b } else { *a };
+                if (*a == piece || *b == piece) && guesses[next].drawn.is_none() {
+                    let side = if *alike { side } else { side.other() };
+                    guesses[next].drawn = Some(side);
+                    open.push((next, side));
+                }
+            }
+        }
+    }
 }
 
 /// The meaning of a piece's name.

@@ -73,6 +73,7 @@ pub(super) fn eased(
     outlines: &[Outline],
     [a, b]: [&EdgeRun; 2],
     tolerance: Tolerance,
+    opposed: bool,
     in_step: impl Fn(&Match) -> bool,
 ) -> Option<Match> {
     let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
@@ -83,7 +84,7 @@ pub(super) fn eased(
     if short.piece == long.piece || !fits || !down(a) || !down(b) || a.hollow().min(b.hollow()) > NIPPED {
         return None;
     }
-    let mut found = one(outlines, short, long, true, 1.0)?;
+    let mut found = one(outlines, short, long, opposed, 1.0)?;
     found.eased = true;
     found.reasons.push("the longer one is eased in".to_owned());
     if in_step(&found) {
@@ -106,11 +107,16 @@ pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance:
     if off > most || a.hollow().min(b.hollow()) > hollow || a.hollow().max(b.hollow()) < BULGING {
         return Vec::new();
     }
-    // Right sides lie together where both are walked against each other; else one of them must be a mirror image.
-    let ways: &[bool] = if outlines[a.piece].mirrored || outlines[b.piece].mirrored { &[true, false] } else { &[true] };
-    let mut found: Vec<Match> = ways.iter().filter_map(|&way| one(outlines, a, b, way, off / most)).collect();
+    let mut found: Vec<Match> =
+        ways(outlines, a, b).iter().filter_map(|&way| one(outlines, a, b, way, off / most)).collect();
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
     found
+}
+
+/// Whether two runs may be walked against each other or along each other: right sides lie together where they are walked
+/// against each other, else one of them must be a mirror image.
+pub(super) fn ways(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> &'static [bool] {
+    if outlines[a.piece].mirrored || outlines[b.piece].mirrored { &[true, false] } else { &[true] }
 }
 
 fn one(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, opposed: bool, off: f64) -> Option<Match> {

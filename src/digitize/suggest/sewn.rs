@@ -43,7 +43,7 @@ pub(super) struct SeamsFound<'o> {
     /// Ends of edges that chains join.
     pub(super) joined: Vec<[EdgeEnd; 2]>,
     /// Up in the drawing.
-    up: Vec2,
+    pub(super) up: Vec2,
     /// The parts of each outline from corner to corner, without the legs of darts, clockwise.
     parts: Vec<Vec<Vec<usize>>>,
     /// Of each piece that is its own mirror image the numbers of the parts that those of `parts` are the images of.
@@ -157,9 +157,10 @@ impl<'o> SeamsFound<'o> {
         self.extent(piece, self.up) <= share * self.extent(piece, across)
     }
 
-    /// The larger extent of a piece, metres.
-    pub(super) fn size(&self, piece: usize) -> f64 {
-        self.extent(piece, Vec2::x()).max(self.extent(piece, Vec2::y()))
+    /// The smaller and the larger extent of a piece, metres.
+    pub(super) fn sizes(&self, piece: usize) -> [f64; 2] {
+        let [wide, high] = [self.extent(piece, Vec2::x()), self.extent(piece, Vec2::y())];
+        [wide.min(high), wide.max(high)]
     }
 
     /// Extent of a piece's corners along a direction.
