@@ -53,7 +53,9 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let (mut pieces, mut outlines, mut told, mut fastened) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let traced = paired(traced);
+    // Before pairs are: the buttons of one half meet the buttonholes of the other.
+    let traced: Vec<Traced> = traced.iter().map(|p| with_buttons(p).unwrap_or_else(|| p.clone())).collect();
+    let traced = paired(&traced);
     let fabrics = declared(&traced, &mut notes);
     for piece in &traced {
         let name = fresh(&piece.name, &names);
@@ -65,8 +67,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
             ));
         }
         let piece = whole.as_ref().unwrap_or(piece);
-        let piece = with_buttons(piece).unwrap_or_else(|| piece.clone()).at_origin();
-        let piece = handed(piece, &name, &mut notes);
+        let piece = handed(piece.at_origin(), &name, &mut notes);
         let (mut file, edges) = piece_file(&name, &piece, &mut notes);
         fastened.push(Fastened::new(&file, &piece.fasteners));
         // The only fabric is that of every piece.

@@ -106,7 +106,7 @@ pub(super) fn written_fold(
     fold
 }
 
-/// Whether the outline turns by a right angle at both ends of an edge, as it does at a fold, so that the whole piece has no
+/// Whether the outline turns by a right angle at both ends of an edge, as it does at a fold: the whole piece has no
 /// corners there.
 fn has_square_ends(edges: &[FileEdge], edge: &FileEdge) -> bool {
     let count = edges.len();

@@ -9,8 +9,8 @@ const LOOKS: usize = 512;
 /// An outline is its own mirror image where the two differ by no more than a step between places and this (metres).
 const ALIKE: f64 = 1e-3;
 
-/// The piece, as a pair if it is cut an even number of times and has a left and a right, unless the drawing says that all
-/// are alike.
+/// The piece, as a pair if it is cut an even number of times and is not its own mirror image, unless the drawing says
+/// that all are alike.
 pub(super) fn handed(piece: Traced, name: &str, notes: &mut Vec<String>) -> Traced {
     let Some(CutKind::Count(count)) = piece.cut_how else { return piece };
     let fold = piece.mirror.is_some() || piece.on_fold.is_some();
@@ -18,8 +18,8 @@ pub(super) fn handed(piece: Traced, name: &str, notes: &mut Vec<String>) -> Trac
         return piece;
     }
     notes.push(format!(
-        "'{name}' is cut {count} times and is not its own mirror image: taken as left and right, 'cut: pair'; for pieces \
-         of one hand write 'cut: {count}'"
+        "'{name}' is cut {count} times and is not its own mirror image: taken as left and right, 'cut: pair'; for \
+         pieces of one hand write 'cut: {count}'"
     ));
     Traced { cut_how: Some(CutKind::Pair), copies: piece.copies.max(1) * count / 2, ..piece }
 }

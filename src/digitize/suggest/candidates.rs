@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use super::corner::turn_before;
 use super::matches::{Match, dart, eased, matches, to_grain, ways};
 use super::run::{EdgeRun, spans};
-use super::sewn::SeamsFound;
+use super::seams_found::SeamsFound;
 use super::{Outline, SHARE, Tolerance};
 
 /// Points against a seam of the same side of two pieces that are each other's mirror image.

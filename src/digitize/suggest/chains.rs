@@ -3,7 +3,7 @@
 use super::matches::to_grain;
 use super::notched::{Compared, compared, reversed};
 use super::run::{EdgeRun, RunNotch};
-use super::sewn::{EdgeEnd, SeamsFound};
+use super::seams_found::{EdgeEnd, SeamsFound};
 use super::{Outline, Tolerance};
 
 /// Longest chain, in runs.
@@ -200,7 +200,9 @@ impl ChainBook<'_> {
 
     /// Whether the chain is one run of a pair that is sewn to nothing yet: of a hood, or of a collar.
     fn is_loose_half(&self, chain: &RunChain) -> bool {
-        matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].pair && self.is_loose(self.runs[run].piece))
+        let [(run, _)] = chain.runs[..] else { return false };
+        let piece = self.runs[run].piece;
+        self.outlines[piece].pair && self.is_loose(piece)
     }
 
     /// Whether no seam has an edge of a piece.

@@ -84,9 +84,9 @@ pub(super) fn guesses(
     guesses
 }
 
-/// Tells which of a left and a right is drawn from the pieces that a piece is sewn to: where both are walked against each
-/// other the drawn ones belong to each other, else one of them and the mirror image of the other. Of pieces of which
-/// nothing is told the first is a left one.
+/// Tells which of a left and a right is drawn from the pieces that a piece is sewn to. Where both are walked against
+/// each other the drawn ones belong to each other, else one of them and the mirror image of the other. Of pieces of
+/// which nothing is told the first is a left one.
 fn spread(outlines: &[Outline], runs: &[EdgeRun], chained: &[ChainMatch], matches: &[Match], guesses: &mut [Guess]) {
     let mut same: Vec<([usize; 2], bool)> = matches.iter().map(|m| ([m.a.piece, m.b.piece], m.opposed)).collect();
     for chain in chained {

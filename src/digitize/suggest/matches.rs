@@ -59,8 +59,8 @@ impl Match {
     }
 }
 
-/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, or by the second where
-/// the two come one after the other round their pieces as two that are sewn already. It is no shorter than this (metres).
+/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, or by the second
+/// where both come as many corners after another seam of their pieces. It is no shorter than this (metres).
 const EASED: [f64; 2] = [0.03, 0.11];
 const EASED_LENGTH: f64 = 0.06;
 /// The note on two sides of one course.
@@ -113,8 +113,8 @@ pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance:
     found
 }
 
-/// Whether two runs may be walked against each other or along each other: right sides lie together where they are walked
-/// against each other, else one of them must be a mirror image.
+/// Whether two runs may be walked against each other (`true`) or along each other. Right sides lie together where they
+/// are walked against each other, else one of them must be a mirror image.
 pub(super) fn ways(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> &'static [bool] {
     if outlines[a.piece].mirrored || outlines[b.piece].mirrored { &[true, false] } else { &[true] }
 }

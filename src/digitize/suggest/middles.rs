@@ -4,7 +4,7 @@ use super::Outline;
 use super::chains::{ChainEnds, ChainMatch};
 use super::matches::{Match, to_grain};
 use super::run::{EdgeRun, says};
-use super::sewn::{EdgeEnd, SeamsFound, run_end};
+use super::seams_found::{EdgeEnd, SeamsFound, run_end};
 use crate::geometry::Vec2;
 use crate::pattern::{PlaceMeaning, PlaceWord};
 
@@ -148,8 +148,8 @@ fn opposite<'r>(
     one.filter(|run| found.next().is_none() && !sewn.centers.contains(&(run.piece, run.edges[0])))
 }
 
-/// The centers of hoods, which are drawn as halves: the edge that bulges beside the seam round the neck, and what follows
-/// it up to the face, which does not bulge.
+/// The centers of hoods, which are drawn as halves: the edge that bulges beside the seam round the neck, and what
+/// follows it up to the face, which does not bulge.
 pub(super) fn told_by_chains(
     sewn: &SeamsFound,
     outlines: &[Outline],

@@ -15,7 +15,7 @@ mod of_file;
 mod over_darts;
 mod rings;
 mod run;
-mod sewn;
+mod seams_found;
 mod taking;
 mod written;
 
@@ -30,7 +30,7 @@ use matches::Match;
 use middles::{center, is_center, told_by_chains, told_by_seams};
 pub use of_file::suggestions;
 use run::{EdgeRun, runs};
-use sewn::SeamsFound;
+use seams_found::SeamsFound;
 use taking::{left, take_chains, take_matches, take_rings};
 use written::{Sides, written};
 pub use written::{Suggestion, sewn};

@@ -2,7 +2,7 @@
 //! shorter and the other is eased or gathered into it.
 
 use super::chains::{ChainBook, ChainEnds, ChainMatch, RunChain};
-use super::sewn::EdgeEnd;
+use super::seams_found::EdgeEnd;
 use crate::geometry::DisjointSets;
 
 /// A ring is sewn to one that is longer by no more than this share. More is gathered by a pattern's own words.
@@ -235,7 +235,8 @@ fn matched(book: &ChainBook, a: &Ring, b: &Ring) -> Option<RingMatch> {
     Some(RingMatch { parts, closing, score, runs: [a.runs(), b.runs()].concat(), between: [a.part, b.part] })
 }
 
-/// The best way to lay two rings along each other, part by part, and by how much the shares of these differ (logarithm).
+/// The best way to lay two rings along each other, part by part, and by how much the shares of these differ
+/// (logarithm).
 fn aligned(book: &ChainBook, a: &Ring, b: &Ring) -> Option<(f64, Vec<ChainMatch>)> {
     // Of halves and whole pieces, front and back each go over the middle.
     let doubled = a.half != b.half;

@@ -6,7 +6,7 @@ use super::chains::{ChainBook, ChainMatch, RunChain};
 use super::matches::Match;
 use super::rings::ring_seams;
 use super::run::EdgeRun;
-use super::sewn::{EdgeEnd, SeamsFound, run_end};
+use super::seams_found::{EdgeEnd, SeamsFound, run_end};
 
 /// A seam with fewer points is not offered.
 const LEAST: f64 = 2.0;
@@ -44,9 +44,9 @@ pub(super) fn take_matches(candidates: &[Match], sewn: &mut SeamsFound, chained:
     }
 }
 
-/// Whether a seam, with the best that goes with it, has more for it than the best two seams that it excludes because they
-/// would make a bag with it. So the seams along both halves of a sleeve, and one over their caps, are told from each
-/// other.
+/// Whether a seam, with the best that goes with it, has more for it than the best two seams that it excludes because
+/// they would make a bag with it. So the seams along both halves of a sleeve, and one over their caps, are told from
+/// each other.
 fn outweighs_excluded(own: &Match, score: f64, open: &[&Match], sewn: &SeamsFound) -> bool {
     let with = |seam: &Match| {
         let mut with = sewn.clone();

@@ -105,8 +105,8 @@ impl<'o> SeamsFound<'o> {
         a != b && count == other.len() && !self.is_symmetric(a) && (0..count).all(same)
     }
 
-    /// Whether the sides of a seam come as many corners after those of a seam that is found as each other, one clockwise
-    /// and one against it, as sides come after shoulders in front and behind.
+    /// Whether both sides of a seam come as many corners after those of a seam that is found, one clockwise and one
+    /// against it, as sides come after shoulders in front and behind.
     pub(super) fn is_in_step(&self, seam: &Match) -> bool {
         let place = |run: &EdgeRun| self.parts[run.piece].iter().position(|part| part.contains(&run.edges[0]));
         let steps = |from: &EdgeRun, to: &EdgeRun| {
