@@ -12,6 +12,8 @@ use crate::geometry::{Path, Vec2, mirrored};
 const ON_FOLD: f64 = 1e-3;
 /// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
 const ASKEW: f64 = 0.0175;
+/// A fold is drafted along the grain to this (radians, a fifth of a degree).
+const DRAFTED: f64 = 0.0035;
 /// The outline is square to a fold to this: the cosine of 84 degrees.
 const SQUARE: f64 = 0.1;
 /// Lines of less (metres) are none.
@@ -92,7 +94,12 @@ pub(super) fn written_fold(
     let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
     let along: Vec<&FileEdge> = edges.iter().filter(is_along).collect();
     let square: Vec<&FileEdge> = along.iter().copied().filter(|e| has_square_ends(edges, e)).collect();
-    let only = [along, square].into_iter().find(|all| all.len() == 1).map(|all| all[0]);
+    let off = |e: &FileEdge| {
+        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
+        warp.unwrap_or(Vec2::y()).perp(&along.unwrap_or(Vec2::x())).abs()
+    };
+    let exact: Vec<&FileEdge> = square.iter().copied().filter(|e| off(e) <= DRAFTED).collect();
+    let only = [along, square, exact].into_iter().find(|all| all.len() == 1).map(|all| all[0]);
     let fold = called.or(only).map(|e| e.name.clone());
     let more = if count > 1 {
         format!("; it is cut {count} times: write a piece 'like' it for each other")

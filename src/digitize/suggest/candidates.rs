@@ -39,7 +39,9 @@ pub(super) fn candidates(outlines: &[Outline], runs: &[EdgeRun], tolerance: Tole
         for b in near.filter(|b| !a.meets(b)) {
             // In the order of the drawing.
             let (a, b) = if (a.piece, &a.edges) <= (b.piece, &b.edges) { (a, b) } else { (b, a) };
-            found.extend(best(outlines, runs, &sewn, a, b, tolerance));
+            if !is_second_image(outlines, &sewn, [a, b]) {
+                found.extend(best(outlines, runs, &sewn, a, b, tolerance).map(|own| unturned(outlines, &sewn, own)));
+            }
         }
     }
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
@@ -102,7 +104,8 @@ fn best(
         found.score -= if sewn.is_same_level(&found) { SAME_LEVEL } else { 0.0 };
         found.score -= if sewn.is_of_twins(&found) && !a.path.is_straight() { TWINS } else { 0.0 };
         found.score -= if strips_apart(outlines, sewn, a, b) { STRIPS } else { 0.0 };
-        found.score -= if !found.opposed && is_turned(outlines, sewn, a, b) { TURNED } else { 0.0 };
+        let turned = !found.opposed && sewn.is_symmetric(a.piece) && sewn.is_symmetric(b.piece);
+        found.score -= if turned { TURNED } else { 0.0 };
         found
     });
     // Courses and notches tell which ends meet; else what lies beside the ends.
@@ -110,12 +113,38 @@ fn best(
     ways.min_by(|x, y| cost(x).total_cmp(&cost(y)))
 }
 
-/// Whether a seam is the same the other way round: both pieces are their own mirror images, or one is, and of the other
+/// The edges of the mirror image of a run of a whole piece that is its own, where the other run is of a piece of which
 /// there is a left and a right.
-fn is_turned(outlines: &[Outline], sewn: &SeamsFound, a: &EdgeRun, b: &EdgeRun) -> bool {
-    let whole = |run: &EdgeRun| !sewn.edge_images(run.piece).is_empty();
-    let both = sewn.is_symmetric(a.piece) && sewn.is_symmetric(b.piece);
-    both || whole(a) && outlines[b.piece].mirrored || whole(b) && outlines[a.piece].mirrored
+fn image(outlines: &[Outline], sewn: &SeamsFound, run: &EdgeRun, other: &EdgeRun) -> Option<Vec<usize>> {
+    if !outlines[other.piece].mirrored || outlines[run.piece].mirrored {
+        return None;
+    }
+    let images = sewn.edge_images(run.piece);
+    let of = |edge: &usize| images.iter().find(|(own, _)| own == edge).map(|(_, image)| *image);
+    run.edges.iter().rev().map(of).collect()
+}
+
+/// Whether a seam is the mirror image of another one: of two sides of a whole piece the first stands for both.
+fn is_second_image(outlines: &[Outline], sewn: &SeamsFound, [a, b]: [&EdgeRun; 2]) -> bool {
+    let second =
+        |run: &EdgeRun, other: &EdgeRun| image(outlines, sewn, run, other).is_some_and(|image| image < run.edges);
+    second(a, b) || second(b, a)
+}
+
+/// A seam that is walked the same way round on a whole piece and on one half of a pair, as its mirror image, in which
+/// the right sides lie together.
+fn unturned(outlines: &[Outline], sewn: &SeamsFound, own: Match) -> Match {
+    if own.opposed {
+        return own;
+    }
+    let turned = |run: &EdgeRun, other: &EdgeRun| {
+        EdgeRun::new(&outlines[run.piece], run.piece, &image(outlines, sewn, run, other)?)
+    };
+    match (turned(&own.a, &own.b), turned(&own.b, &own.a)) {
+        (Some(a), _) => Match { a, opposed: true, ..own },
+        (_, Some(b)) => Match { b, opposed: true, ..own },
+        _ => own,
+    }
 }
 
 /// Whether two runs are the short ends of strips of which one is cut more often: bindings of a neck and of arms are as

@@ -35,10 +35,12 @@ pub(super) fn guesses(
     chained: &[ChainMatch],
     mirrored: &[(EdgeRun, f64, String)],
     matches: &[Match],
+    up: Vec2,
 ) -> Vec<Guess> {
     let mut guesses = vec![Guess::default(); outlines.len()];
     let mut facing: Vec<Option<GuessedSide>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
     let caps: Vec<&ChainMatch> = chained.iter().filter(|chain| is_cap(outlines, runs, chain)).collect();
+    let right = right(runs, &caps, up);
     for chain in &caps {
         // A double notch marks the back.
         for &(run, _) in &chain.a.runs {
@@ -60,7 +62,7 @@ pub(super) fn guesses(
                 chain.a.runs.iter().map(|&(run, _)| facing[runs[run].piece]).collect::<Option<Vec<GuessedSide>>>();
             if both.is_some_and(|both| both.contains(&GuessedSide::Back) && both.contains(&GuessedSide::Front)) {
                 // Seen from outside the back of the right arm lies left of its front.
-                let (start, end) = (sleeve.path.start().x, sleeve.path.end().x);
+                let [start, end] = [sleeve.path.start(), sleeve.path.end()].map(|p| p.dot(&right));
                 let back_is_left = (back_first == forward) == (start < end);
                 guesses[sleeve.piece].drawn = Some(if back_is_left { Side::Right } else { Side::Left });
             }
@@ -76,7 +78,7 @@ pub(super) fn guesses(
         if let (Some(facing), Some(middle)) = (facing[piece], middle) {
             let [low, high] = box_or_origin(outlines[piece].edges.iter().flat_map(|e| e.path.sampled(1e-3)));
             // Seen from outside the wearer's left is right of the middle in front, and left of it behind.
-            let lies_right = middle.x < (low.x + high.x) / 2.0;
+            let lies_right = (middle - (low + high) / 2.0).dot(&right) < 0.0;
             guess.drawn = Some(if lies_right == (facing == GuessedSide::Front) { Side::Left } else { Side::Right });
         }
     }
@@ -109,6 +111,16 @@ fn spread(outlines: &[Outline], runs: &[EdgeRun], chained: &[ChainMatch], matche
             }
         }
     }
+}
+
+/// To the right in the drawing, as its pieces stand upright: the cap of a sleeve is its upper end.
+fn right(runs: &[EdgeRun], caps: &[&ChainMatch], up: Vec2) -> Vec2 {
+    let bulge = |cap: &&ChainMatch| {
+        let path = &runs[cap.b.runs.first()?.0].path;
+        Some((path.point(path.length() / 2.0) - (path.start() + path.end()) / 2.0).dot(&up))
+    };
+    let up = if caps.first().and_then(bulge).is_some_and(|bulge| bulge < 0.0) { -up } else { up };
+    Vec2::new(-up.y, up.x)
 }
 
 /// The meaning of a piece's name.

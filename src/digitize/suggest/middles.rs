@@ -19,6 +19,8 @@ const CROTCH: f64 = 0.03;
 /// was drafted.
 const DOWN: f64 = 0.61;
 const STRAIGHT_DOWN: f64 = 0.0035;
+/// Edges that are as long as each other to this (metres).
+const AS_LONG: f64 = 1e-3;
 /// The center of a piece lies across from its side: the cosine of the angle between their directions outwards is no
 /// more than minus this.
 const ACROSS: f64 = 0.8;
@@ -50,7 +52,12 @@ pub(super) fn is_center(outlines: &[Outline], runs: &[EdgeRun], run: &EdgeRun) -
     let meanings: Vec<PlaceMeaning> = PlaceWord::in_name(&outline.piece).into_iter().map(PlaceWord::meaning).collect();
     let says = |wanted: &[PlaceMeaning]| meanings.iter().any(|meaning| wanted.contains(meaning));
     let of_trunk = says(&[PlaceMeaning::Front, PlaceMeaning::Back]) && !says(&[PlaceMeaning::Arm, PlaceMeaning::Neck]);
-    outline.pair && (called() || (of_trunk && is_down(run) && only()))
+    // As long as the side of a piece that has no center there, it is a side.
+    let is_side = || {
+        let whole = |other: &&EdgeRun| !outlines[other.piece].pair && is_down(other);
+        runs.iter().filter(whole).any(|other| (other.length() - run.length()).abs() <= AS_LONG)
+    };
+    outline.pair && (called() || (of_trunk && is_down(run) && only() && !is_side()))
 }
 
 /// Whether the center of a pair is surely sewn: it is called so, or it is that of a back.

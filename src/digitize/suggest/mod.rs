@@ -122,8 +122,8 @@ fn of_one_size(outlines: &[Outline]) -> (Vec<Suggestion>, Vec<Guess>) {
     } else {
         roughly
     };
-    let guesses = guesses(outlines, &found.sides, &found.chained, &found.mirrored, &found.seams);
     let sewn = SeamsFound::new(outlines);
+    let guesses = guesses(outlines, &found.sides, &found.chained, &found.mirrored, &found.seams, sewn.up);
     let sides = Sides::new(outlines, |piece| sewn.edge_images(piece), &guesses);
     let suggestions = written(outlines, &sides, &found.sides, &found.seams, &found.chained, &found.mirrored);
     (suggestions, guesses)

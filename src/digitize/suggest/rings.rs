@@ -229,8 +229,8 @@ fn matched(book: &ChainBook, a: &Ring, b: &Ring) -> Option<RingMatch> {
         part.lapped = (fit == RingFit::Lapped).then(|| a.length.min(b.length));
         (part.score, part.reasons) = (score, reasons.clone());
     }
-    let loose = if a.loose { a } else { b };
-    let closes = loose.loose && fit == RingFit::Gathered;
+    let (loose, other) = if a.loose { (a, b) } else { (b, a) };
+    let closes = loose.loose && fit != RingFit::Lapped && !other.opens;
     let closing = closes.then(|| book.closing(&loose.walks[0])).flatten();
     Some(RingMatch { parts, closing, score, runs: [a.runs(), b.runs()].concat(), between: [a.part, b.part] })
 }

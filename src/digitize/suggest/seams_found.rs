@@ -105,8 +105,8 @@ impl<'o> SeamsFound<'o> {
         a != b && count == other.len() && !self.is_symmetric(a) && (0..count).all(same)
     }
 
-    /// Whether both sides of a seam come as many corners after those of a seam that is found, one clockwise and one
-    /// against it, as sides come after shoulders in front and behind.
+    /// Whether both sides of a seam come as many corners after those of a seam that is found, as sides come after
+    /// shoulders in front and behind.
     pub(super) fn is_in_step(&self, seam: &Match) -> bool {
         let place = |run: &EdgeRun| self.parts[run.piece].iter().position(|part| part.contains(&run.edges[0]));
         let steps = |from: &EdgeRun, to: &EdgeRun| {
@@ -114,13 +114,18 @@ impl<'o> SeamsFound<'o> {
             Some((place(to)? + count - place(from)?) % count)
         };
         let after = |[a, b]: [&EdgeRun; 2]| {
-            let back =
-                |run: &EdgeRun, steps: usize| (self.parts[run.piece].len() - steps) % self.parts[run.piece].len();
+            let count = self.parts[b.piece].len();
             let [one, other] = [steps(a, &seam.a), steps(b, &seam.b)];
-            one.zip(other).is_some_and(|(one, other)| one == back(b, other) || other == back(a, one))
+            // Of two left ones, as of two right ones, both run the same way round.
+            one.zip(other).is_some_and(|(one, other)| {
+                let backward = (count - other) % count;
+                let before = (self.parts[a.piece].len() - one) % self.parts[a.piece].len();
+                if seam.opposed { one == backward || other == before } else { one == other || before == backward }
+            })
         };
         let pieces = [seam.a.piece, seam.b.piece];
-        self.seams.iter().any(|own| match [own.a.piece, own.b.piece] {
+        let alike = self.seams.iter().filter(|own| own.opposed == seam.opposed);
+        alike.into_iter().any(|own| match [own.a.piece, own.b.piece] {
             own_pieces if own_pieces == pieces => after([&own.a, &own.b]),
             [a, b] if [b, a] == pieces => after([&own.b, &own.a]),
             _ => false,

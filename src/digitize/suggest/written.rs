@@ -131,13 +131,14 @@ pub(super) fn written(
     mirrored: &[(EdgeRun, f64, String)],
 ) -> Vec<Suggestion> {
     let pieces = |runs: &[&EdgeRun]| -> Vec<usize> { runs.iter().map(|run| run.piece).collect() };
-    let mut found: Vec<(Vec<usize>, Suggestion)> = Vec::new();
+    let mut found: Vec<(Vec<usize>, Suggestion, Option<Side>)> = Vec::new();
     for own in matches {
-        let sides = [(&own.a, false), (&own.b, own.opposed)];
-        let [sew, to] = sides.map(|(run, backward)| edges(outlines, run, backward, None));
+        let lists = [(&own.a, false), (&own.b, own.opposed)];
+        let [sew, to] = lists.map(|(run, backward)| edges(outlines, run, backward, None));
         let lengths = [own.a.length(), own.b.length()];
         let made = suggestion(sew, to, lengths, own.score, &own.reasons);
-        found.push((pieces(&[&own.a, &own.b]), if own.eased { made.eased() } else { made }));
+        let side = sides.of(outlines, [&[(own.a.piece, true)], &[(own.b.piece, !own.opposed)]]);
+        found.push((pieces(&[&own.a, &own.b]), if own.eased { made.eased() } else { made }, side));
     }
     for own in chained {
         let of = |chain: &RunChain| chain.runs.iter().map(|(run, _)| runs[*run].piece).collect::<Vec<usize>>();
@@ -151,23 +152,32 @@ pub(super) fn written(
             None if own.eased => made.eased(),
             None => made,
         };
-        found.push((of(&own.b).into_iter().chain(of(&own.a)).collect(), made));
+        let ways = |chain: &RunChain| -> Vec<(usize, bool)> {
+            chain.runs.iter().map(|&(run, forward)| (runs[run].piece, forward)).collect()
+        };
+        let side = sides.of(outlines, [&ways(&own.a), &ways(&own.b)]);
+        found.push((of(&own.b).into_iter().chain(of(&own.a)).collect(), made, side));
     }
     for (run, score, reason) in mirrored {
         let to = vec!["mirror".to_owned()];
         let sew = edges(outlines, run, false, None);
-        found.push((vec![run.piece], suggestion(sew, to, [run.length(); 2], *score, std::slice::from_ref(reason))));
+        let made = suggestion(sew, to, [run.length(); 2], *score, std::slice::from_ref(reason));
+        found.push((vec![run.piece], made, None));
     }
     found.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
-    let found =
-        found.into_iter().flat_map(|(pieces, own)| sides.both(own).into_iter().map(move |own| (pieces.clone(), own)));
+    let both = |(pieces, own, side): (Vec<usize>, Suggestion, Option<Side>)| {
+        sides.both(own, side).into_iter().map(move |own| (pieces.clone(), own))
+    };
+    let found = found.into_iter().flat_map(both);
     named(outlines, found.collect())
 }
 
 /// Edges of pieces of which there is a left and a right, and of whole pieces that they are sewn to.
 pub(super) struct Sides {
-    /// Names of pieces with a left and a right, each with the one that is drawn.
-    drawn: Vec<(String, Side)>,
+    /// Names of pieces with a left and a right.
+    mirrored: Vec<String>,
+    /// Which of a left and a right is drawn, of each piece.
+    drawn: Vec<Side>,
     /// Names of edges of whole pieces, each with that of its mirror image.
     images: Vec<(String, String)>,
 }
@@ -178,42 +188,47 @@ impl Sides {
             |piece: usize, edge: usize| format!("{}.{}", outlines[piece].piece, outlines[piece].edges[edge].name);
         let of =
             |piece: usize| images(piece).into_iter().map(move |(edge, image)| (full(piece, edge), full(piece, image)));
-        let drawn = |(outline, guess): (&Outline, &Guess)| {
-            outline.mirrored.then(|| (outline.piece.clone(), guess.drawn.unwrap_or(Side::Left)))
-        };
         Self {
-            drawn: outlines.iter().zip(guesses).filter_map(drawn).collect(),
+            mirrored: outlines.iter().filter(|outline| outline.mirrored).map(|outline| outline.piece.clone()).collect(),
+            drawn: guesses.iter().map(|guess| guess.drawn.unwrap_or(Side::Left)).collect(),
             images: (0..outlines.len()).flat_map(of).collect(),
         }
     }
 
+    /// The side of the wearer on which a seam is that sews a whole piece to one with a left and a right. `walked` are the
+    /// pieces of its two lists, each with whether it is walked clockwise.
+    fn of(&self, outlines: &[Outline], walked: [&[(usize, bool)]; 2]) -> Option<Side> {
+        let all = || [0, 1].into_iter().flat_map(|list| walked[list].iter().map(move |own| (list, own.0, own.1)));
+        let whole = all().find(|(_, piece, _)| !outlines[*piece].mirrored)?;
+        let half = all().find(|(_, piece, _)| outlines[*piece].mirrored)?;
+        // What is drawn as it is on that side goes round the same way in one list, and the other way in the other.
+        let alike = (whole.2 == half.2) == (whole.0 == half.0);
+        let drawn = self.drawn[half.1];
+        Some(if alike { drawn } else { drawn.other() })
+    }
+
     /// A seam of a piece with a left and a right to one side of a whole piece as two seams, one for each side.
-    fn both(&self, own: Suggestion) -> Vec<Suggestion> {
+    fn both(&self, own: Suggestion, side: Option<Side>) -> Vec<Suggestion> {
         let edges: Vec<&String> = own.sew.iter().chain(&own.to).collect();
         let is_told = |edge: &String| edge == "mirror" || edge.contains('@') || edge.matches('.').count() > 1;
         let image = |edge: &str| self.images.iter().find(|(own, _)| own == edge).map(|(_, image)| image.clone());
-        let drawn = |edge: &str| {
-            let (piece, _) = edge.split_once('.')?;
-            self.drawn.iter().find(|(name, _)| name == piece).map(|(_, side)| *side)
-        };
+        let is_half =
+            |edge: &str| edge.split_once('.').is_some_and(|(piece, _)| self.mirrored.iter().any(|name| name == piece));
         let aside = |edge: &&String| image(edge).is_some_and(|image| image != ***edge);
-        let has_both = edges.iter().any(|edge| drawn(edge).is_some()) && edges.iter().any(aside);
-        if edges.iter().any(|edge| is_told(edge)) || !has_both {
+        let has_both = edges.iter().any(|edge| is_half(edge)) && edges.iter().any(aside);
+        let Some(first) = side.filter(|_| has_both && !edges.iter().any(|edge| is_told(edge))) else {
             return vec![own];
-        }
-        let side = |as_drawn: bool| {
-            let edge = |edge: &String| match (drawn(edge), image(edge)) {
-                (Some(side), _) => {
-                    let side = if as_drawn { side } else { side.other() };
-                    edge.replacen('.', &format!(".{}.", side.letter()), 1)
-                }
-                (None, Some(image)) if !as_drawn => image,
+        };
+        let on = |side: Side| {
+            let edge = |edge: &String| match image(edge) {
+                _ if is_half(edge) => edge.replacen('.', &format!(".{}.", side.letter()), 1),
+                Some(image) if side != first => image,
                 _ => edge.clone(),
             };
             let [sew, to] = [&own.sew, &own.to].map(|edges| edges.iter().map(edge).collect());
             Suggestion { sew, to, ..own.clone() }
         };
-        vec![side(true), side(false)]
+        vec![on(first), on(first.other())]
     }
 }
 
