@@ -195,8 +195,8 @@ impl Sides {
         }
     }
 
-    /// The side of the wearer on which a seam is that sews a whole piece to one with a left and a right. `walked` are the
-    /// pieces of its two lists, each with whether it is walked clockwise.
+    /// The side of the wearer on which a seam is that sews a whole piece to one with a left and a right. `walked` are
+    /// the pieces of its two lists, each with whether it is walked clockwise.
     fn of(&self, outlines: &[Outline], walked: [&[(usize, bool)]; 2]) -> Option<Side> {
         let all = || [0, 1].into_iter().flat_map(|list| walked[list].iter().map(move |own| (list, own.0, own.1)));
         let whole = all().find(|(_, piece, _)| !outlines[*piece].mirrored)?;
