@@ -396,6 +396,15 @@ fn buttons_and_buttonholes_are_closures() {
     assert!(says(&notes, &["the buttons on 'left_front' close", "'meets'"]), "{notes:?}");
 }
 
+/// A scale beyond all numbers makes coordinates that are none: refused, with the place. The fuzz found it.
+#[test]
+fn a_drawing_of_infinite_size_is_refused() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='1e3080cm' height='.0cm' viewBox='0 0 1200 800'>\n\
+                <path d='M 0 0 L 0 300 M -4 12 L 0 0 L 4 12'/></svg>";
+    let error = read_svg_text(text).expect_err("no size").to_string();
+    assert!(error.contains("line 2") && error.contains("a path of this size"), "{error}");
+}
+
 /// Valentina draws a button as a ring with a cross over it and a buttonhole as a line between bars, each in one path.
 #[test]
 fn symbols_of_buttons_and_buttonholes_are_closures() {

@@ -286,13 +286,12 @@ impl SvgReader<'_, '_> {
         let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
         let paths: Vec<Path> =
             paths.into_iter().map(|path| path.mapped(scope.frame.linear, scope.frame.shift)).collect();
+        if !paths.iter().all(is_sized) {
+            return Err(self.value(node, "a path of this size", &commands));
+        }
         let arrow = if role == Role::Unknown { shaft(&paths) } else { None };
         let role = if arrow.is_some() { Role::Arrow } else { role };
         for path in arrow.map_or(paths, |shaft| vec![shaft]) {
-            let reaches = [path.start().amax(), path.end().amax(), path.length()];
-            if reaches.iter().any(|r| r.is_nan() || *r > FARTHEST) {
-                return Err(self.value(node, "a path of this size", &commands));
-            }
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
                 let (group, layer) = (scope.group.clone(), scope.layer.clone());
@@ -324,6 +323,11 @@ impl SvgReader<'_, '_> {
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
         SvgError::Value { line: self.line(node), what, text: shown(text, SHOWN) }
     }
+}
+
+/// Whether a path is no larger, and no farther off, than a pattern may be.
+fn is_sized(path: &Path) -> bool {
+    [path.start().amax(), path.end().amax(), path.length()].iter().all(|reach| *reach <= FARTHEST)
 }
 
 /// The title of the drawing.
