@@ -78,7 +78,7 @@ pub(super) fn told_by_seams(outlines: &[Outline], sewn: &SeamsFound, left: &[Edg
     let of = |(piece, outline): (usize, &Outline)| {
         let own: Vec<&EdgeRun> = left.iter().filter(|run| run.piece == piece).collect();
         let down: Vec<(usize, &EdgeRun)> = sides(outlines, sewn, piece);
-        let crotch = outline.pair.then(|| crotch(outlines, sewn, &own, &down)).unwrap_or_default();
+        let crotch = if outline.pair { crotch(outlines, sewn, &own, &down) } else { Vec::new() };
         let center = (outline.pair && crotch.is_empty()).then(|| opposite(outlines, sewn, &own, &down)).flatten();
         let crotch = crotch.into_iter().map(|run| (run.clone(), BY_COURSE, CROTCH_SAID.to_owned()));
         crotch.chain(center.map(|run| (run.clone(), BY_COURSE, CENTER_SAID.to_owned()))).collect::<Vec<_>>()
