@@ -601,8 +601,13 @@ fn what_is_written_on_a_piece_says_that_it_lies_on_the_fold() {
         assert_eq!(said.contains("cut 2 times"), words.contains('2'), "{said}");
         assert!(drawing.suggestions.iter().all(|s| s.sew.iter().chain(&s.to).all(|e| e != "front.d")));
     }
+    // Without the grain the corners tell: the whole piece has none at the fold.
+    assert_eq!(drawn(&made("cut 1 on fold", ""))[0].cut, CutKind::Fold("d".to_owned()));
     // Four straight edges, and nothing that tells one from the other.
-    let unknown = made("cut 1 on fold", "");
+    let unknown = from_svg(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\
+         <path id='front' d='M 100 0 H 200 V 300 H 100 Z'/><text x='150' y='90'>cut 1 on fold</text></svg>",
+    );
     assert_eq!(drawn(&unknown)[0].cut, CutKind::One);
     assert!(unknown.notes[0].contains("say at which edge, 'cut: fold EDGE'"), "{:?}", unknown.notes);
     // A line that is drawn says it better.

@@ -396,6 +396,53 @@ fn buttons_and_buttonholes_are_closures() {
     assert!(says(&notes, &["the buttons on 'left_front' close", "'meets'"]), "{notes:?}");
 }
 
+/// A scale beyond all numbers makes coordinates that are none: refused, with the place. The fuzz found it.
+#[test]
+fn a_drawing_of_infinite_size_is_refused() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='1e3080cm' height='.0cm' viewBox='0 0 1200 800'>\n\
+                <path d='M 0 0 L 0 300 M -4 12 L 0 0 L 4 12'/></svg>";
+    let error = read_svg_text(text).expect_err("no size").to_string();
+    assert!(error.contains("line 2") && error.contains("a path of this size"), "{error}");
+}
+
+/// Valentina draws a button as a ring with a cross over it and a buttonhole as a line between bars, each in one path.
+#[test]
+fn symbols_of_buttons_and_buttonholes_are_closures() {
+    let ring = |x: f64, y: f64| {
+        let corner = |k: u32| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
+            format!("{} {:.4} {:.4}", if k == 0 { "M" } else { "L" }, x + 4.25 * cos, y + 4.25 * sin)
+        };
+        let ring: Vec<String> = (0..=24).map(corner).collect();
+        format!("M {x} {} V {} M {} {y} H {} {}", y - 5.0, y + 5.0, x - 5.0, x + 5.0, ring.join(" "))
+    };
+    let hole = |x: f64, y: f64| {
+        let [left, right] = [x - 11.0, x + 11.0];
+        format!("M {left} {y} H {right} M {left} {} V {} M {right} {} V {}", y - 3.0, y + 3.0, y - 3.0, y + 3.0)
+    };
+    let panel = |name: &str, left: f64, marks: &[String]| {
+        let paths: Vec<String> = marks.iter().map(|d| format!("<path d='{d}' fill='none' stroke='black'/>")).collect();
+        format!(
+            "<g id='{name}'><path d='M {left} 20 h 160 v 300 h -160 z' fill='none' stroke='black'/>{}</g>",
+            paths.concat()
+        )
+    };
+    let right = panel("right_front", 20.0, &[60.0, 140.0, 220.0].map(|y| ring(40.0, y)));
+    let left = panel("left_front", 220.0, &[60.0, 140.0, 220.0].map(|y| hole(360.0, y)));
+    let drawing = read(&svg(420.0, 340.0, &(right + &left)));
+    let made = made(&drawing);
+    let [closure] = &made.file.closures[..] else { panic!("{:?} {:?}", made.file.closures, made.notes) };
+    let points = |at: &[toile::pattern::Located<[f64; 2]>]| -> Vec<[f64; 2]> {
+        at.iter().map(|p| p.value.map(f64::round)).collect()
+    };
+    let name = |at: &Option<toile::pattern::Located<String>>| at.as_ref().map(|name| name.value.clone());
+    // Left and right are a pair, whose buttonholes lie over its buttons.
+    assert_eq!([name(&closure.on), name(&closure.meets)], [Some("front".to_owned()), Some("front".to_owned())]);
+    assert_eq!(points(&closure.at), [[20.0, 40.0], [20.0, 120.0], [20.0, 200.0]]);
+    let pieces = pieces(&drawing);
+    assert!(pieces.iter().all(|p| p.lines.is_empty() && p.holes.is_empty() && p.grain.is_none()), "{pieces:?}");
+}
+
 #[test]
 fn letters_of_an_svg_are_those_of_its_encoding() {
     let room = Room::new();

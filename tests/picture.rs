@@ -408,8 +408,15 @@ fn a_pattern_shows_its_seams_in_colours() {
             path: Curve::line(corners[k], corners[k + 1]),
             notches: vec![(0.1, k == 0)],
             seam: seam.filter(|_| k == 1),
+            fold: false,
         };
-        PatternPiece { name: name.to_owned(), edges: (0..4).map(edge).collect(), lines: Vec::new(), grain: None }
+        PatternPiece {
+            name: name.to_owned(),
+            edges: (0..4).map(edge).collect(),
+            lines: Vec::new(),
+            points: Vec::new(),
+            grain: None,
+        }
     };
     let picture = |seam: Option<usize>| {
         let pieces = [square("front", seam), square("back", seam)];

@@ -113,13 +113,16 @@ fn sorted(mut all: Vec<String>) -> Vec<String> {
     all
 }
 
+/// Places along an edge at which the garment's own edge there is looked up.
+const LOOKS: u32 = 40;
+
 /// The garment's own edges that edges of a suggestion run along.
 fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<String> {
     let own = |written: &String| -> Vec<String> {
         if written == "mirror" {
             return vec![written.clone()];
         }
-        let words: Vec<&str> = written.split('.').collect();
+        let words: Vec<&str> = written.split('@').next().unwrap_or_default().split('.').collect();
         let (piece, edge) = (words[0], words[words.len() - 1]);
         let k = drawings.iter().position(|d| d.name == piece).expect("a piece");
         let file = &made.file.pieces[k];
@@ -144,7 +147,7 @@ fn along(made: &Digitized, drawings: &[DrawnPiece], edges: &[String]) -> Vec<Str
             let full = format!("{piece}.{}", edge.name);
             if is_leg { full } else { base(drawings, &full) }
         };
-        [0.1, 0.3, 0.5, 0.7, 0.9].map(nearest).to_vec()
+        (0..LOOKS).map(|k| nearest((f64::from(k) + 0.5) / f64::from(LOOKS))).collect()
     };
     sorted(edges.iter().flat_map(own).collect())
 }
@@ -264,8 +267,60 @@ fn the_seams_of_garmentcodes_patterns_are_offered() {
         let drawn = drawings(&loaded.file, &loaded.garment);
         garments.push((name, loaded.file, drawn));
     }
-    let [right, offered, ..] = of_garments(&garments);
-    assert!(right * 100 >= offered * 85, "{right} of {offered}");
+    let [right, offered, found, seams] = of_garments(&garments);
+    assert!(right * 100 >= offered * 85 && found * 100 >= seams * 70, "{right} of {offered}, {found} of {seams}");
+}
+
+/// Two panels alike, of which the drawing tells no grain: their sides are sewn, not their waists and hems.
+#[test]
+fn panels_alike_are_sewn_at_their_sides() {
+    let panel = |name: &str| Traced {
+        name: name.to_owned(),
+        sew: vec![(None, Path::parse_absolute("M 20 0 H 220 L 240 500 H 0 Z", 1e-3).expect("a path"))],
+        ..Traced::default()
+    };
+    let mut offered = offered(&garment_file("skirt", &[panel("front"), panel("back")]));
+    offered.sort();
+    let seam = |a: &str, b: &str| (a.to_owned(), b.to_owned());
+    assert_eq!(offered, [seam("front.b", "back.d"), seam("front.d", "back.b")]);
+}
+
+/// A pair of fronts is sewn to both sides of a back that is drawn whole.
+#[test]
+fn left_and_right_are_sewn_to_both_sides_of_a_whole_piece() {
+    let whole = Drawn { cut: None, ..Drawn::pair("back", "M 100 20 L 130 0 L 210 30 L 230 400 H 0 L 20 30 L 100 0 Z") };
+    let path = "M 40 90 L 70 0 L 150 30 L 170 400 H 20 L 40 90 Z";
+    let front = Drawn::pair("front", path);
+    let back = "M 80 0 L 115 10 L 150 0 L 230 30 L 250 400.0547 H -20 L 0 30 Z";
+    let made = made(&[front, Drawn { path: back, ..whole }]);
+    let sides: Vec<&Suggestion> = made.suggestions.iter().filter(|own| own.lengths[0] > 0.3).collect();
+    assert_eq!(sides.len(), 2, "{:?}", made.suggestions);
+    let pieces = |own: &Suggestion| {
+        let all = own.sew.iter().chain(&own.to);
+        let (front, back): (Vec<&String>, Vec<&String>) = all.partition(|edge| edge.starts_with("front"));
+        (front[0].clone(), back[0].clone())
+    };
+    let [one, other] = [pieces(sides[0]), pieces(sides[1])];
+    assert!(one.0.starts_with("front.L.") && other.0.starts_with("front.R."), "{one:?} {other:?}");
+    assert_ne!(one.1, other.1);
+}
+
+/// What is offered makes a garment when it is taken over as it stands, also bands that lap and cuffs that close.
+#[test]
+fn what_is_offered_for_makers_designs_can_be_sewn() {
+    for name in [
+        "tests/designs/skirt.yaml",
+        "tests/designs/hoodie.yaml",
+        "tests/designs/dress.yaml",
+        "patterns/gore_skirt.yaml",
+        "patterns/tshirt.yaml",
+    ] {
+        let loaded = read(FilePath::new(name)).unwrap_or_else(|e| panic!("{e}"));
+        let made = garment_file("garment", &stripped(&drawings(&loaded.file, &loaded.garment)));
+        let sewn = toile::digitize::sewn(&made.file, &made.suggestions);
+        let yaml = toile::io::garment::write(&sewn).expect("YAML");
+        toile::io::garment::read_text("garment", name, &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"));
+    }
 }
 
 /// Half of a bodice on the fold: neckline, shoulder, armhole, side and hem. `bend` moves the armhole, which has its
@@ -394,6 +449,38 @@ fn hems_are_told_by_their_allowance() {
     let hem = |edge: &String| edge.ends_with(".c");
     assert!(made.suggestions.iter().all(|s| !s.sew.iter().chain(&s.to).any(hem)), "{:?}", made.suggestions);
     assert!(offered(&made).contains(&("front.b".to_owned(), "back.b".to_owned())), "{:?}", made.suggestions);
+}
+
+/// Sizes that an import wrote beside each other are not sewn to each other in the studio either.
+#[test]
+fn a_garment_file_of_several_sizes_is_offered_seams_within_each() {
+    let size = |size: usize, name: &str, more: f64| {
+        let path = format!("M 0 0 H {} L {} {} H 0 Z", 200.0 + more, 220.0 + more, 300.0 + more);
+        Traced {
+            name: format!("{name}_{}", 38 + 2 * size),
+            sew: vec![(None, Path::parse_absolute(&path, 1e-3).expect("a path"))],
+            grain: Some([point([50.0, 50.0]), point([50.0, 150.0])]),
+            cut_how: Some(CutKind::Pair),
+            size: Some(size),
+            size_name: Some((38 + 2 * size).to_string()),
+            ..Traced::default()
+        }
+    };
+    let pieces = [size(0, "front", 0.0), size(0, "back", 0.0), size(1, "front", 0.5), size(1, "back", 0.5)];
+    let made = garment_file("skirt", &pieces);
+    let offered = toile::digitize::suggestions(&made.file);
+    assert!(!offered.is_empty());
+    let sizes = |edges: &[String]| -> Vec<String> {
+        edges
+            .iter()
+            .filter(|edge| *edge != "mirror")
+            .map(|edge| edge.chars().skip_while(|c| *c != '_').take(3).collect())
+            .collect()
+    };
+    for own in &offered {
+        let of_both = sorted([sizes(&own.sew), sizes(&own.to)].concat());
+        assert_eq!(of_both.len(), 1, "{own:?}");
+    }
 }
 
 /// The studio offers the same seams for an imported file as the import did, and fewer once some are sewn.

@@ -98,7 +98,7 @@ pub(super) fn count(cut: &CutKind) -> String {
         CutKind::One => "cut 1".to_owned(),
         CutKind::Pair => "cut 2 (left and right)".to_owned(),
         CutKind::Fold(_) => "cut 1 on the fold".to_owned(),
-        CutKind::Count(n) => format!("cut {n}"),
+        CutKind::Count(n) => format!("cut {n} (alike)"),
     }
 }
 

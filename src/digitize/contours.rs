@@ -6,7 +6,7 @@ use super::follow::follows;
 use super::frames::{DrawingFrame, SheetLine};
 use super::holes::holes_of;
 use super::joined::{beyond_seam, nearly_closed, unclosed};
-use super::said::{Said, said};
+use super::said::{Said, said, says_alike};
 use super::sizes::{are_sizes, sizes};
 use super::sorted::Sorted;
 use super::titles::titles;
@@ -44,7 +44,7 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Dr
         let own: Vec<Stroke> = strokes.iter().filter(own).cloned().collect();
         let mut drawing = one_size(&own, remarks, sheet);
         for piece in &mut drawing.pieces {
-            piece.size = Some(k);
+            (piece.size, piece.size_name) = (Some(k), Some(size.clone()));
             if !piece.name.contains(size.as_str()) {
                 piece.name = format!("{}_{size}", piece.name);
             }
@@ -86,6 +86,7 @@ fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Draw
             None => (None, 1, None),
         };
         let (mut traced, beyond) = piece(contour, &inner, &rest);
+        traced.alike = said_by.is_some_and(|i| says_alike(&remarks[i].text));
         let titles = titles(remarks, |at| contour.holds(at));
         // Groups and layers that are named tell more than words do.
         let title = titles.title.filter(|_| traced.name.is_empty());
@@ -94,7 +95,10 @@ fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Draw
         traced.number = titles.number.map(|(_, number)| number);
         traced.name = title.map_or(traced.name, |(_, title)| title);
         drawing.left_out.extend(beyond_seam(&traced.name, &beyond));
-        drawing.pieces.push(Traced { cut_how, copies, on_fold, size: contours.size(o), ..traced });
+        let size = contours.size(o);
+        // Of sizes without a name the smallest is 1.
+        let size_name = size.map(|smaller| (smaller + 1).to_string());
+        drawing.pieces.push(Traced { cut_how, copies, on_fold, size, size_name, ..traced });
     }
     drawing.left_out.extend(contours.too_small(&outer, &mut drawing.lost));
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours.all[o].owns(line));

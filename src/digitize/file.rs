@@ -1,15 +1,18 @@
 //! The garment file of traced pieces.
 
+use super::buttons::with_buttons;
 use super::darts::{ClosedDart, closed};
 use super::edges::{FileEdge, edges, nearest_edge};
 use super::fasteners::{Fastened, closures};
 use super::fish_eyes::taken;
-use super::folds::{fold_edge, merged, opened};
+use super::folds::{fold_edge, merged, opened, written_fold};
+use super::hands::handed;
 use super::holes::Hole;
 use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;
+use super::sizes::size_note;
 use super::stated::{at_no_place, file_point};
 use super::suggest::{Guess, Outline, Suggestion, suggest};
 use super::{Material, Traced};
@@ -19,8 +22,6 @@ use crate::pattern::{
     NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Value,
 };
 
-/// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
-const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
 /// Places along an edge where its allowance is measured, as shares of its length.
@@ -52,7 +53,9 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let (mut pieces, mut outlines, mut told, mut fastened) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let traced = paired(traced);
+    // Before pairs are: the buttons of one half meet the buttonholes of the other.
+    let traced: Vec<Traced> = traced.iter().map(|p| with_buttons(p).unwrap_or_else(|| p.clone())).collect();
+    let traced = paired(&traced);
     let fabrics = declared(&traced, &mut notes);
     for piece in &traced {
         let name = fresh(&piece.name, &names);
@@ -64,7 +67,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
             ));
         }
         let piece = whole.as_ref().unwrap_or(piece);
-        let piece = piece.at_origin();
+        let piece = handed(piece.at_origin(), &name, &mut notes);
         let (mut file, edges) = piece_file(&name, &piece, &mut notes);
         fastened.push(Fastened::new(&file, &piece.fasteners));
         // The only fabric is that of every piece.
@@ -73,13 +76,15 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         let pair = file.cut.as_ref().is_some_and(|cut| cut.value == CutKind::Pair);
         let copies = copies(&file, piece.copies, &mut names, &mut notes);
         let allowances = edges.iter().map(|e| width_of(&file, &e.name)).collect();
-        let warp =
-            file.grain.as_ref().and_then(|g| (Vec2::from(g.value[1]) - Vec2::from(g.value[0])).try_normalize(0.0));
+        // A piece without grain is taken as running down the drawing.
+        let arrow = file.grain.as_ref().map(|g| Vec2::from(g.value[1]) - Vec2::from(g.value[0]));
+        let warp = arrow.map_or(Some(Vec2::y()), |arrow| arrow.try_normalize(0.0));
         let material = piece.material.as_ref().map(name_of);
         let mirrored = pair || fold.is_some();
+        let single = file.cut.as_ref().is_none_or(|cut| cut.value == CutKind::One) && piece.copies <= 1;
         told.push((name.clone(), piece.drawn.is_some()));
         let size = piece.size;
-        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, warp, material, size });
+        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, single, warp, material, size });
         pieces.push(file);
         pieces.extend(copies);
     }
@@ -239,10 +244,11 @@ fn fold_of(piece: &PieceFile) -> Option<&str> {
     }
 }
 
-/// What the drawing says of a piece that a garment file has no key for: its number and its material.
+/// What the drawing says of a piece that a garment file has no key for: its number, its material and its size.
 fn noted(piece: &Traced) -> Option<String> {
     let number = piece.number.as_ref().map(|number| format!("no. {} of the drawing", plain(number)));
-    let said: Vec<String> = number.into_iter().chain(piece.material.as_ref().and_then(note)).collect();
+    let size = piece.size_name.as_ref().map(|size| size_note(&plain(size)));
+    let said: Vec<String> = number.into_iter().chain(piece.material.as_ref().and_then(note)).chain(size).collect();
     (!said.is_empty()).then(|| said.join(", "))
 }
 
@@ -385,36 +391,6 @@ fn lines(piece: &Traced, wedges: &[ClosedDart]) -> Vec<LineFile> {
         lines.push(add("drill", &Path::line(p - half, p + half), LineKind::Mark("drill".to_owned())));
     }
     lines
-}
-
-/// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
-/// straight one that runs along the grain.
-fn written_fold(
-    name: &str,
-    count: usize,
-    edges: &[FileEdge],
-    grain: Option<[Vec2; 2]>,
-    notes: &mut Vec<String>,
-) -> Option<String> {
-    let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
-    let is_along = |e: &&FileEdge| {
-        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
-        e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
-    };
-    let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
-    let mut straight = edges.iter().filter(is_along);
-    let only = straight.next().filter(|_| straight.next().is_none());
-    let fold = called.or(only).map(|e| e.name.clone());
-    let more = if count > 1 {
-        format!("; it is cut {count} times: write a piece 'like' it for each other")
-    } else {
-        String::new()
-    };
-    notes.push(match &fold {
-        Some(edge) => format!("'{name}' is to be cut on the fold: its edge '{edge}' is taken for that{more}"),
-        None => format!("'{name}' is to be cut on the fold: say at which edge, 'cut: fold EDGE'{more}"),
-    });
-    fold
 }
 
 /// The longest stretch of an edge beside the mouths of its darts.

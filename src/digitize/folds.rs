@@ -10,6 +10,12 @@ use crate::geometry::{Path, Vec2, mirrored};
 
 /// A fold's ends are so near to those of an edge (metres).
 const ON_FOLD: f64 = 1e-3;
+/// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
+const ASKEW: f64 = 0.0175;
+/// A fold is drafted along the grain to this (radians, a fifth of a degree).
+const DRAFTED: f64 = 0.0035;
+/// The outline is square to a fold to this: the cosine of 84 degrees.
+const SQUARE: f64 = 0.1;
 /// Lines of less (metres) are none.
 const NOTHING: f64 = 1e-8;
 
@@ -69,6 +75,54 @@ pub(super) fn merged(mut edges: Vec<FileEdge>, fold: Option<[Vec2; 2]>) -> Vec<F
         }
     }
     out
+}
+
+/// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
+/// straight one that runs along the grain.
+pub(super) fn written_fold(
+    name: &str,
+    count: usize,
+    edges: &[FileEdge],
+    grain: Option<[Vec2; 2]>,
+    notes: &mut Vec<String>,
+) -> Option<String> {
+    let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
+    let is_along = |e: &&FileEdge| {
+        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
+        e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
+    };
+    let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
+    let along: Vec<&FileEdge> = edges.iter().filter(is_along).collect();
+    let square: Vec<&FileEdge> = along.iter().copied().filter(|e| has_square_ends(edges, e)).collect();
+    let off = |e: &FileEdge| {
+        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
+        warp.unwrap_or(Vec2::y()).perp(&along.unwrap_or(Vec2::x())).abs()
+    };
+    let exact: Vec<&FileEdge> = square.iter().copied().filter(|e| off(e) <= DRAFTED).collect();
+    let only = [along, square, exact].into_iter().find(|all| all.len() == 1).map(|all| all[0]);
+    let fold = called.or(only).map(|e| e.name.clone());
+    let more = if count > 1 {
+        format!("; it is cut {count} times: write a piece 'like' it for each other")
+    } else {
+        String::new()
+    };
+    notes.push(match &fold {
+        Some(edge) => format!("'{name}' is to be cut on the fold: its edge '{edge}' is taken for that{more}"),
+        None => format!("'{name}' is to be cut on the fold: say at which edge, 'cut: fold EDGE'{more}"),
+    });
+    fold
+}
+
+/// Whether the outline turns by a right angle at both ends of an edge, as it does at a fold: the whole piece has no
+/// corners there.
+fn has_square_ends(edges: &[FileEdge], edge: &FileEdge) -> bool {
+    let count = edges.len();
+    let Some(k) = edges.iter().position(|own| std::ptr::eq(own, edge)) else { return false };
+    let square = |a: &FileEdge, b: &FileEdge| {
+        let (from, to) = (a.path.tangent(a.path.length()), b.path.tangent(0.0));
+        from.dot(&to).abs() <= SQUARE
+    };
+    square(&edges[(k + count - 1) % count], edge) && square(edge, &edges[(k + 1) % count])
 }
 
 /// The name of the edge that lies on a fold: the longest.

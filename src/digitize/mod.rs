@@ -4,6 +4,7 @@
 //! down. [`garment_file`] makes a `GarmentFile` of them that lacks only the seams: outlines are split into named edges
 //! at corners and notches, allowances are measured, and [`Suggestion`]s list edges that may be sewn together.
 
+mod buttons;
 mod chain;
 mod contour;
 mod contours;
@@ -15,6 +16,7 @@ mod fish_eyes;
 mod folds;
 mod follow;
 mod frames;
+mod hands;
 mod holes;
 mod joined;
 mod lozenge;
@@ -242,6 +244,8 @@ pub struct Traced {
     pub cut_how: Option<CutKind>,
     /// Number of repetitions of that: a pair cut twice from folded cloth gives two of either hand.
     pub copies: usize,
+    /// Whether the drawing says that those which are cut are alike, not left and right.
+    pub alike: bool,
     /// Number of times it is cut on the fold, if that is written on it. The line is [`Self::mirror`], if it is drawn.
     pub on_fold: Option<usize>,
     /// Numbers of the remarks that were read of it: how it is cut, its title, its number.
@@ -256,6 +260,8 @@ pub struct Traced {
     pub corners: Vec<(String, Corner)>,
     /// Number of its size, where sizes are drawn over one another: pieces of two sizes are never sewn to each other.
     pub size: Option<usize>,
+    /// The name of that size.
+    pub size_name: Option<String>,
 }
 
 impl Traced {

@@ -8,6 +8,8 @@ const MOST: usize = 100;
 const NUMBERS: [(&str, usize); 6] = [("one", 1), ("two", 2), ("three", 3), ("four", 4), ("six", 6), ("eight", 8)];
 /// Words that say that a piece is cut once as drawn and once mirrored.
 const MIRRORED: [&str; 5] = ["left and right", "l and r", "mirror", "pair", "l/r"];
+/// Words that say that all are of one hand.
+const ALIKE: [&str; 3] = ["alike", "identical", "same way"];
 /// Words that say that a piece lies on the fold.
 const ON_FOLD: [&str; 3] = ["on fold", "on the fold", "on a fold"];
 
@@ -46,6 +48,12 @@ pub(super) fn said(text: &str) -> Option<Said> {
         count @ 2..=MOST => Some(Said::Cut(CutKind::Count(count), 1)),
         _ => None,
     }
+}
+
+/// Whether such a text says that all are of one hand.
+pub(super) fn says_alike(text: &str) -> bool {
+    let text = text.to_lowercase();
+    ALIKE.iter().any(|word| text.contains(word))
 }
 
 /// `2`, `2x`, `x2`, `two`.

@@ -33,6 +33,16 @@ pub(crate) fn size_of(name: &str) -> Option<String> {
     after.or_else(alone).map(|w| (*w).to_owned()).or_else(glued)
 }
 
+/// The remark on a piece of one size among others.
+pub(super) fn size_note(size: &str) -> String {
+    format!("size {size}")
+}
+
+/// The size that such a remark says.
+pub(super) fn noted_size(note: &str) -> Option<&str> {
+    note.split(", ").find_map(|said| said.strip_prefix("size "))
+}
+
 /// The sizes that strokes are drawn in, in the order of the drawing. None where no outline of one follows that of
 /// another round it.
 pub(crate) fn sizes(strokes: &[Stroke]) -> Vec<String> {

@@ -24,7 +24,7 @@ pub use curve::{Path, Station};
 pub(crate) use decimate::decimated;
 pub(crate) use extent::{box_of, box_or_origin, range_of};
 pub use fit::{Cubic, smooth_curves};
-pub(crate) use letters::{CAPITAL_CELLS, from_left, letter_strokes};
+pub(crate) use letters::{CAPITAL_CELLS, LetterStrokes, from_left, letter_strokes};
 pub(crate) use locator::Locator;
 pub use path_text::{PathError, parse_transform};
 pub(crate) use polygon::{diagonals_of, triangles_of};

@@ -89,6 +89,8 @@ impl Block<'_> {
             mirror,
             cut: Some(cut),
             cut_how: self.text("quantity:").and_then(quantity),
+            // With a second number of mirrored ones the first is of one hand.
+            alike: self.text("quantity:").is_some_and(|text| text.contains([',', ';', '/'])),
             drawn: self.text("drawn:").and_then(Side::from_letter),
             material: self.material(),
             corners: told.iter().filter_map(corner).collect(),

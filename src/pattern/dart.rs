@@ -7,7 +7,7 @@ use super::diagnostic::{Findings, Spot};
 use super::draft::{Draft, DrawnStretch, OwnSeam, SewnPart, position, shown, unknown_edge};
 use super::file::{DartFile, DartShape, PieceFile};
 use super::problem::Problem;
-use super::value::Unit;
+use super::value::{Quantity, Unit};
 use super::{Edge, SeamKind};
 use crate::geometry::{Path, Vec2};
 
@@ -69,29 +69,61 @@ pub(super) fn open_outline(
     }
 }
 
+/// The middle of a dart's mouth on an edge, and its ends.
+fn mouth(edge: &Path, dart: &DartFile, at: Quantity, unit: Unit) -> (f64, [f64; 2]) {
+    let (middle, half) = (position(at, edge.length(), unit), 0.5 * dart.intake.value.value(unit));
+    (middle, [middle - half, middle + half])
+}
+
+/// The point of a dart with its mouth between two points of an edge.
+fn tip_of([one, other]: [Vec2; 2], dart: &DartFile, unit: Unit) -> Option<Vec2> {
+    let DartShape::Edge { length, tip, .. } = &dart.shape else { return None };
+    if let Some(tip) = tip {
+        return Some(Vec2::from(tip.value) * unit.factor());
+    }
+    let across = (other - one).try_normalize(0.0)?;
+    // The outline runs clockwise on screen: the cloth lies to the right of the walk.
+    Some((one + other) / 2.0 + Vec2::new(-across.y, across.x) * length.as_ref()?.value.value(unit))
+}
+
+/// The corners of a fish-eye dart, from its upper tip round.
+fn lozenge(at: [f64; 2], [up, down]: [Quantity; 2], intake: Quantity, unit: Unit) -> [Vec2; 4] {
+    let middle = Vec2::from(at) * unit.factor();
+    let half = Vec2::new(0.5 * intake.value(unit), 0.0);
+    let top = middle - Vec2::new(0.0, up.value(unit));
+    [top, middle - half, middle + Vec2::new(0.0, down.value(unit)), middle + half]
+}
+
+/// The legs of a dart as a line, of a piece with these edges by their names. `None` if its edge is not there.
+pub(crate) fn dart_legs(dart: &DartFile, edges: &[(&str, &Path)], unit: Unit) -> Option<Path> {
+    match &dart.shape {
+        DartShape::Edge { edge, at, .. } => {
+            let (_, path) = edges.iter().find(|(name, _)| *name == edge.value)?;
+            let ends = mouth(path, dart, at.value, unit).1.map(|at| path.point(at));
+            Some(Path::polyline(&[ends[0], tip_of(ends, dart, unit)?, ends[1]]))
+        }
+        DartShape::FishEye { at, up, down } => {
+            let [a, b, c, d] = lozenge(at.value, [up.value, down.value], dart.intake.value, unit);
+            Some(Path::polyline(&[a, b, c, d, a]))
+        }
+    }
+}
+
 fn wedge(drawn: &Draft, edge: &Edge, dart: &DartFile, i: usize, unit: Unit, findings: &mut Findings) -> Option<Wedge> {
-    let DartShape::Edge { edge: on, at, length, tip } = &dart.shape else { return None };
+    let DartShape::Edge { edge: on, at, .. } = &dart.shape else { return None };
     if on.value != edge.name {
         return None;
     }
     let whole = edge.path.length();
     let name = format!("{}.{}", drawn.name, edge.name);
-    let (middle, half) = (position(at.value, whole, unit), 0.5 * dart.intake.value.value(unit));
-    let mouth = [middle - half, middle + half];
+    let (middle, mouth) = mouth(&edge.path, dart, at.value, unit);
     if mouth[0] <= 0.0 || mouth[1] >= whole {
         let (at_mm, [from, to], length) = (middle * 1e3, mouth.map(|m| m * 1e3), whole * 1e3);
         findings.error(at.at, Problem::DartMouth { edge: name, at: at_mm, from, to, length });
         return None;
     }
     let [one, other] = mouth.map(|m| edge.path.point(m));
-    let tip = match (tip, length) {
-        (Some(tip), _) => Vec2::from(tip.value) * unit.factor(),
-        (None, length) => {
-            let across = (other - one).try_normalize(0.0)?;
-            // The outline runs clockwise on screen: the cloth lies to the right of the walk.
-            (one + other) / 2.0 + Vec2::new(-across.y, across.x) * length.as_ref()?.value.value(unit)
-        }
-    };
+    let tip = tip_of([one, other], dart, unit)?;
     let legs = [(tip - one).norm(), (tip - other).norm()];
     if (legs[0] - legs[1]).abs() > LEG_TOLERANCE {
         let [one, other] = legs.map(|l| l * 1e3);
@@ -160,16 +192,12 @@ pub(crate) const FISH_EYE_EDGES: [&str; 4] = ["upper_a", "lower_a", "lower_b", "
 pub(super) fn cut_fish_eyes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     for (i, dart) in piece.darts.iter().enumerate() {
         let DartShape::FishEye { at, up, down } = &dart.shape else { continue };
-        let middle = Vec2::from(at.value) * unit.factor();
-        let half = Vec2::new(0.5 * dart.intake.value.value(unit), 0.0);
-        let top = middle - Vec2::new(0.0, up.value.value(unit));
-        let bottom = middle + Vec2::new(0.0, down.value.value(unit));
-        if let Some(tip) = [top, bottom].into_iter().find(|&t| !contains(&drawn.rings[0], t)) {
+        let corners = lozenge(at.value, [up.value, down.value], dart.intake.value, unit);
+        if let Some(tip) = [corners[0], corners[2]].into_iter().find(|&t| !contains(&drawn.rings[0], t)) {
             findings.error(at.at, Problem::DartTip { piece: drawn.name.clone(), tip: shown(tip) });
             continue;
         }
         let name = dart_name(dart, i);
-        let corners = [top, middle - half, bottom, middle + half];
         let edge = |k: usize| Edge {
             name: format!("{name}.{}", FISH_EYE_EDGES[k]),
             path: Path::line(corners[k], corners[(k + 1) % 4]),

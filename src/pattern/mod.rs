@@ -60,7 +60,7 @@ pub use along::{Along, along};
 pub use alteration_file::{AlterationFile, SizeFile, StationFile};
 pub(crate) use bound::known_girth;
 pub(crate) use crossing::loop_crossing;
-pub(crate) use dart::FISH_EYE_EDGES;
+pub(crate) use dart::{FISH_EYE_EDGES, dart_legs};
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, DrawnEdge, DrawnFold, DrawnNotch, DrawnPiece, drawings};
 pub(crate) use edge_name::edge_name;

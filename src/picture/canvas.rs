@@ -1,13 +1,20 @@
 //! The finished picture's pixels, and flat drawing on them.
 
 use super::color::Rgb;
-use super::font::{Contour, Typeface};
+use super::font::{CAPITAL, Contour, Typeface};
 use super::ink::Ink;
 use super::raster::byte;
+use crate::geometry::{CAPITAL_CELLS, LetterStrokes, from_left, letter_strokes};
 
 /// Letters are made bolder by this on both sides of a stroke, in cells of the font: small ones of a light typeface are
 /// too pale on the picture.
 const BOLDER: f32 = 0.1;
+/// Cells of the font per cell of a letter that is drawn as strokes: its capitals are as high.
+const STROKE_CELL: f32 = CAPITAL / CAPITAL_CELLS as f32;
+/// The same of a letter that is a square: it is as high as a capital with the space below the line.
+const WIDE_CELL: f32 = 9.0 / 16.0;
+/// Half the width of such strokes, cells of the font: as thick as the typeface's.
+const STROKE: f32 = 0.4;
 
 /// Pixels, three bytes each, row by row.
 pub(super) struct Canvas {
@@ -58,24 +65,38 @@ impl Canvas {
     }
 
     /// Writes a line of text from `start`, on the base line. `cell` is the size of a cell of the font, seven of which
-    /// make a capital. Returns where the text ends.
+    /// make a capital. Letters that the typeface does not have are drawn as strokes. Returns where the text ends.
     pub(super) fn text(&mut self, text: &str, [left, base]: [f32; 2], cell: f32, color: Rgb) -> f32 {
         let Some(face) = Typeface::new() else { return left };
         let mut x = left;
-        for letter in text.chars() {
-            let placed = |contour: Contour| contour.iter().map(|p| [x + cell * p[0], base + cell * p[1]]).collect();
-            let contours: Vec<Contour> = face.contours(letter).into_iter().map(placed).collect();
-            if let Some(ink) = Ink::of(&contours, BOLDER * cell, [self.width, self.height]) {
-                self.print(&ink, color);
+        for letter in from_left(text).chars() {
+            match strokes(&face, letter) {
+                Some(own) => self.strokes(&own, [x, base], cell, color),
+                None => {
+                    let placed = |c: Contour| c.iter().map(|p| [x + cell * p[0], base + cell * p[1]]).collect();
+                    let contours: Vec<Contour> = face.contours(letter).into_iter().map(placed).collect();
+                    if let Some(ink) = Ink::of(&contours, BOLDER * cell, [self.width, self.height]) {
+                        self.print(&ink, color);
+                    }
+                }
             }
-            x += cell * face.advance(letter);
+            x += cell * advance(&face, letter);
         }
         x
     }
 
     /// Width of a line of text, pixels.
     pub(super) fn text_width(text: &str, cell: f32) -> f32 {
-        Typeface::new().map_or(0.0, |face| text.chars().map(|letter| cell * face.advance(letter)).sum())
+        Typeface::new().map_or(0.0, |face| from_left(text).chars().map(|letter| cell * advance(&face, letter)).sum())
+    }
+
+    /// A letter as strokes.
+    fn strokes(&mut self, letter: &LetterStrokes, [left, base]: [f32; 2], cell: f32, color: Rgb) {
+        let scale = cell * stroke_cell(letter);
+        for ends in &letter.strokes {
+            let [a, b] = ends.map(|[x, y]| [left + scale * x, base - scale * y]);
+            self.line(a, b, STROKE * cell, color);
+        }
     }
 
     fn print(&mut self, ink: &Ink, color: Rgb) {
@@ -92,4 +113,19 @@ impl Canvas {
             *held = byte(f32::from(*held) / 255.0 * (1.0 - share) + new * share);
         }
     }
+}
+
+/// The strokes of a letter that the typeface does not have.
+fn strokes(face: &Typeface, letter: char) -> Option<LetterStrokes> {
+    if face.has(letter) { None } else { letter_strokes(letter) }
+}
+
+/// Cells of the font per cell of a letter's strokes.
+fn stroke_cell(letter: &LetterStrokes) -> f32 {
+    if letter.is_wide { WIDE_CELL } else { STROKE_CELL }
+}
+
+/// Cells of the font from a letter to the next one.
+fn advance(face: &Typeface, letter: char) -> f32 {
+    strokes(face, letter).map_or_else(|| face.advance(letter), |own| stroke_cell(&own) * own.advance as f32)
 }

@@ -27,6 +27,11 @@ impl Typeface {
         Some(Self { scale: CAPITAL / f32::from(height), face })
     }
 
+    /// Whether it has a letter.
+    pub(super) fn has(&self, letter: char) -> bool {
+        self.face.glyph_index(letter).is_some()
+    }
+
     /// The contours of a letter. Letters that the typeface does not have are a box.
     pub(super) fn contours(&self, letter: char) -> Vec<Contour> {
         let mut outline = Outline { scale: self.scale, done: Vec::new() };

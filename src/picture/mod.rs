@@ -7,6 +7,7 @@
 
 mod camera;
 mod canvas;
+mod clear;
 mod color;
 mod dressed;
 mod flat;

@@ -2,6 +2,7 @@
 //! colours.
 
 use super::canvas::Canvas;
+use super::clear::Taken;
 use super::color::{INK, PALE_INK, PAPER, RIM, Rgb, opening};
 use super::font::CAPITAL;
 use super::places::{BoxPlace, places};
@@ -26,6 +27,15 @@ const EDGE_CELL: f32 = 1.9;
 const PIECE_CELL: f32 = 2.8;
 const LEGEND_CELL: f32 = 2.4;
 const TITLE_CELL: f32 = 5.0;
+/// Dashes of a fold, and the gaps between them, pixels.
+const DASHES: [f64; 2] = [16.0, 9.0];
+/// Radius of the ring that stands for a button or a buttonhole, pixels, and its sides.
+const RING: f64 = 7.0;
+const RING_SIDES: usize = 16;
+/// Space between an edge and its label, and round a piece's name, pixels.
+const OFF: f64 = 6.0;
+/// The grain arrow ends so far within its piece, as a share of the piece's size.
+const GRAIN_ROOM: f64 = 0.05;
 /// A piece's name is written no smaller than this share of its size, be the piece however narrow.
 const LEAST_SHARE: f32 = 0.5;
 /// Height of a line of the legend, and the side of its square, pixels.
@@ -39,8 +49,10 @@ pub struct PatternPiece {
     pub name: String,
     /// Its edges, clockwise.
     pub edges: Vec<PatternEdge>,
-    /// Holes and lines inside.
+    /// Holes, darts and lines inside.
     pub lines: Vec<Path>,
+    /// Buttons and buttonholes.
+    pub points: Vec<Vec2>,
     /// Tail and head of the grain arrow.
     pub grain: Option<[Vec2; 2]>,
 }
@@ -56,6 +68,8 @@ pub struct PatternEdge {
     pub notches: Vec<(f64, bool)>,
     /// The number of the seam that takes it.
     pub seam: Option<usize>,
+    /// Whether it lies on the fold of the cloth.
+    pub fold: bool,
 }
 
 /// Draws the pieces to one scale, with a line below for each seam in its colour, and returns the bytes of a PNG file,
@@ -91,8 +105,28 @@ struct Shown<'a> {
 
 impl Shown<'_> {
     fn at(&self, p: Vec2) -> [f32; 2] {
-        let p = (p - self.place.from) * self.scale + self.place.to;
+        let p = self.point(p);
         [p.x as f32, p.y as f32]
+    }
+
+    fn point(&self, p: Vec2) -> Vec2 {
+        (p - self.place.from) * self.scale + self.place.to
+    }
+
+    /// The chords of a path, pixels.
+    fn steps(&self, path: &Path) -> impl Iterator<Item = [Vec2; 2]> {
+        let points: Vec<Vec2> = path.sampled(SMOOTH).into_iter().map(|p| self.point(p)).collect();
+        (1..points.len()).map(move |k| [points[k - 1], points[k]])
+    }
+
+    /// A path in dashes.
+    fn dashed(&self, canvas: &mut Canvas, path: &Path, radius: f32, color: Rgb) {
+        let [dash, gap] = DASHES.map(|pixels| pixels / self.scale);
+        let mut from = 0.0;
+        while from < path.length() {
+            self.path(canvas, &path.part(from, (from + dash).min(path.length())), radius, color);
+            from += dash + gap;
+        }
     }
 
     fn path(&self, canvas: &mut Canvas, path: &Path, radius: f32, color: Rgb) {
@@ -107,29 +141,86 @@ fn bounds(piece: &PatternPiece) -> [Vec2; 2] {
 }
 
 fn draw_piece(canvas: &mut Canvas, piece: &PatternPiece, shown: &Shown) {
-    piece.lines.iter().for_each(|line| shown.path(canvas, line, INNER, PALE_INK));
-    if let Some([tail, head]) = piece.grain {
-        arrow(canvas, shown.at(tail), shown.at(head));
+    let mut taken = Taken::default();
+    for line in &piece.lines {
+        shown.path(canvas, line, INNER, PALE_INK);
+        shown.steps(line).for_each(|step| taken.line(step));
     }
+    piece.points.iter().for_each(|point| ring(canvas, shown.point(*point), &mut taken));
+    let [low, high] = bounds(piece);
+    if let Some(ends) = piece.grain.and_then(|grain| within(grain, [low, high])) {
+        let ends = ends.map(|p| shown.point(p));
+        arrow(canvas, ends);
+        taken.line(ends);
+    }
+    let sides: Vec<[Vec2; 2]> = piece.edges.iter().flat_map(|edge| shown.steps(&edge.path)).collect();
+    sides.iter().for_each(|side| taken.line(*side));
     for edge in &piece.edges {
         let (radius, color) = edge.seam.map_or((EDGE, RIM), |seam| (SEWN, opening(seam)));
-        shown.path(canvas, &edge.path, radius, color);
+        if edge.fold {
+            shown.dashed(canvas, &edge.path, radius, color);
+        } else {
+            shown.path(canvas, &edge.path, radius, color);
+        }
         edge.notches.iter().for_each(|notch| draw_notch(canvas, edge, *notch, shown));
     }
-    let [low, high] = bounds(piece);
     let size = (high - low) * shown.scale;
-    piece.edges.iter().for_each(|edge| label(canvas, edge, size, shown));
-    let [x, y] = shown.at((low + high) / 2.0);
+    piece.edges.iter().for_each(|edge| label(canvas, edge, size, shown, &mut taken));
     let width = Canvas::text_width(&piece.name, PIECE_CELL);
     let cell = PIECE_CELL * (size.x as f32 / width.max(1.0)).clamp(LEAST_SHARE, 1.0);
-    canvas.text(&piece.name, [x - Canvas::text_width(&piece.name, cell) / 2.0, y], cell, INK);
+    let words = words_size(&piece.name, cell);
+    let middle = shown.point((low + high) / 2.0);
+    let clear = taken.place(&sides, words + Vec2::repeat(2.0 * OFF), middle);
+    write(canvas, &piece.name, clear.unwrap_or(middle), cell, INK);
+}
+
+/// The size of a line of text, pixels.
+fn words_size(text: &str, cell: f32) -> Vec2 {
+    Vec2::new(f64::from(Canvas::text_width(text, cell)), f64::from(CAPITAL * cell))
+}
+
+/// Writes a text round its middle.
+fn write(canvas: &mut Canvas, text: &str, middle: Vec2, cell: f32, color: Rgb) {
+    let size = words_size(text, cell);
+    let at = middle + Vec2::new(-size.x, size.y) / 2.0;
+    canvas.text(text, [at.x as f32, at.y as f32], cell, color);
+}
+
+/// A ring round a point.
+fn ring(canvas: &mut Canvas, middle: Vec2, taken: &mut Taken) {
+    let corner = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / RING_SIDES as f64).sin_cos();
+        middle + RING * Vec2::new(cos, sin)
+    };
+    for k in 0..RING_SIDES {
+        let [a, b] = [corner(k), corner(k + 1)];
+        canvas.line([a.x as f32, a.y as f32], [b.x as f32, b.y as f32], INNER, INK);
+    }
+    taken.words(middle, Vec2::repeat(2.0 * RING));
+}
+
+/// The part of an arrow that lies in a piece's box, a little within where it leaves it; `None` beside it.
+fn within(ends: [Vec2; 2], [low, high]: [Vec2; 2]) -> Option<[Vec2; 2]> {
+    let is_in = |p: Vec2| (0..2).all(|k| (low[k]..=high[k]).contains(&p[k]));
+    if ends.into_iter().all(is_in) {
+        return Some(ends);
+    }
+    let room = GRAIN_ROOM * (high - low);
+    let (low, high, along) = (low + room, high - room, ends[1] - ends[0]);
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for k in (0..2).filter(|k| along[*k] != 0.0) {
+        let at = [(low[k] - ends[0][k]) / along[k], (high[k] - ends[0][k]) / along[k]];
+        from = from.max(at[0].min(at[1]));
+        to = to.min(at[0].max(at[1]));
+    }
+    (from < to).then(|| [from, to].map(|share| ends[0] + share * along))
 }
 
 /// A line with a head.
-fn arrow(canvas: &mut Canvas, tail: [f32; 2], head: [f32; 2]) {
-    let along = Vec2::new(f64::from(head[0] - tail[0]), f64::from(head[1] - tail[1]));
+fn arrow(canvas: &mut Canvas, ends: [Vec2; 2]) {
+    let Some(unit) = (ends[1] - ends[0]).try_normalize(0.0) else { return };
+    let [tail, head] = ends.map(|p| [p.x as f32, p.y as f32]);
     canvas.line(tail, head, INNER, PALE_INK);
-    let Some(unit) = along.try_normalize(0.0) else { return };
     for side in [-0.5, 0.5] {
         let flank = (unit + side * Vec2::new(-unit.y, unit.x)) * f64::from(NOTCH);
         canvas.line(head, [head[0] - flank.x as f32, head[1] - flank.y as f32], INNER, PALE_INK);
@@ -155,27 +246,28 @@ fn draw_notch(canvas: &mut Canvas, edge: &PatternEdge, (at, double): (f64, bool)
 
 /// An edge's name and length beside its middle, its name alone where that is all there is room for in a piece of this
 /// size (pixels).
-fn label(canvas: &mut Canvas, edge: &PatternEdge, size: Vec2, shown: &Shown) {
+fn label(canvas: &mut Canvas, edge: &PatternEdge, size: Vec2, shown: &Shown, taken: &mut Taken) {
     let long = edge.path.length();
-    let room = (long * shown.scale) as f32;
-    let texts = [format!("{} {:.1}", edge.name, long * MM), edge.name.clone()];
-    let [dx, dy] = inward(edge, long / 2.0);
-    // Beside an upright edge a text needs room up and down alone.
-    let needed = |text: &str| {
-        let width = Canvas::text_width(text, EDGE_CELL);
-        (width * dy.abs()).max(CAPITAL * EDGE_CELL * dx.abs())
+    let room = long * shown.scale;
+    let fold = if edge.fold { " fold" } else { "" };
+    let texts = [format!("{} {:.1}{fold}", edge.name, long * MM), edge.name.clone()];
+    let [dx, dy] = inward(edge, long / 2.0).map(|c| f64::from(c).abs());
+    // Beside an upright edge a text needs room up and down alone, and the edge across has its own.
+    let fits = |text: &&String| {
+        let words = words_size(text, EDGE_CELL);
+        (words.x * dy).max(words.y * dx) <= room && words.x * dx <= 0.5 * size.x
     };
-    // The edge across has its own.
-    let deep = |text: &str| Canvas::text_width(text, EDGE_CELL) * dx.abs() <= 0.5 * size.x as f32;
-    let fits = |text: &&String| needed(text) <= room && deep(text);
     let Some(text) = texts.iter().find(fits) else { return };
-    let width = Canvas::text_width(text, EDGE_CELL);
-    let height = CAPITAL * EDGE_CELL;
-    let [x, y] = shown.at(edge.path.point(long / 2.0));
-    let off = 6.0 + SEWN;
-    let middle = [x + dx * (off + width / 2.0 * dx.abs()), y + dy * (off + height)];
-    let color = edge.seam.map_or(INK, opening);
-    canvas.text(text, [middle[0] - width / 2.0, middle[1] + height / 2.0], EDGE_CELL, color);
+    let words = words_size(text, EDGE_CELL);
+    // The nearest of three places of the edge that is clear of what is there.
+    let places = [0.5, 0.35, 0.65].map(|share| {
+        let [dx, dy] = inward(edge, share * long).map(f64::from);
+        let off = OFF + f64::from(SEWN) + (words.x * dx.abs() + words.y * dy.abs()) / 2.0;
+        shown.point(edge.path.point(share * long)) + off * Vec2::new(dx, dy)
+    });
+    let middle = places.into_iter().find(|at| taken.is_clear(*at, words)).unwrap_or(places[0]);
+    taken.words(middle, words);
+    write(canvas, text, middle, EDGE_CELL, edge.seam.map_or(INK, opening));
 }
 
 /// A line for each seam: its colour and what it sews.

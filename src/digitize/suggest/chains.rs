@@ -3,7 +3,7 @@
 use super::matches::to_grain;
 use super::notched::{Compared, compared, reversed};
 use super::run::{EdgeRun, RunNotch};
-use super::sewn::{EdgeEnd, SeamsFound};
+use super::seams_found::{EdgeEnd, SeamsFound};
 use super::{Outline, Tolerance};
 
 /// Longest chain, in runs.
@@ -14,8 +14,16 @@ const MOST_CHAINS: usize = 2000;
 const EASE: f64 = 0.08;
 /// Runs that lie so far beside their chords, as a share of these, are hollow, and bulge out on the other side.
 const HOLLOW: f64 = 0.03;
+/// The edge of a hood that goes round the neck may be hollow up to this.
+const HOOD: f64 = 0.08;
+/// A band may bend by so much to the shape of the body, as a share of its length.
+const BENT: f64 = 0.08;
 /// Edges that lie no farther from the grain than this (radians, 20 degrees) run along it.
 const ALONG_GRAIN: f64 = 0.35;
+/// Points for a cap and an armhole that are highest in the same place.
+const AT_TOP: f64 = 0.5;
+/// A chain is an upper or a lower edge whose direction outwards is up or down to this: the cosine of 15 degrees.
+const LEVEL: f64 = 0.966;
 /// Joints of a chain that lie so near to a joint or a notch of the other side (metres) lie opposite it.
 const OPPOSITE: f64 = 0.012;
 
@@ -37,11 +45,11 @@ pub(super) struct RunChain {
     pub(super) length: f64,
     marks: Vec<RunNotch>,
     joints: Vec<f64>,
-    ends: ChainEnds,
+    pub(super) ends: ChainEnds,
     /// Whether its start and its end are in the middle of the wearer.
-    middles: [bool; 2],
+    pub(super) middles: [bool; 2],
     /// Mean of how far its runs lie within their pieces beside their chords.
-    hollow: f64,
+    pub(super) hollow: f64,
 }
 
 /// Two chains that may be sewn together.
@@ -51,7 +59,9 @@ pub(super) struct ChainMatch {
     pub(super) b: RunChain,
     /// Whether the first is a half, and the second is as long as both.
     pub(super) doubled: bool,
-    /// Whether the second is longer, and eased in.
+    /// Where the second goes on beyond the first and laps: the length of it that is sewn, metres.
+    pub(super) lapped: Option<f64>,
+    /// Whether one is longer, and eased or gathered in.
     pub(super) eased: bool,
     pub(super) score: f64,
     pub(super) reasons: Vec<String>,
@@ -151,31 +161,71 @@ impl ChainBook<'_> {
         let pieces =
             |chain: &RunChain| -> Vec<usize> { chain.runs.iter().map(|(run, _)| self.runs[*run].piece).collect() };
         let (own, other) = (pieces(a), pieces(b));
-        if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > HOLLOW) {
+        // A hood's edge may be hollow to the front.
+        let hollow = if a.ends == ChainEnds::Folds && self.is_loose_half(b) { HOOD } else { HOLLOW };
+        if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > hollow) {
             return None;
         }
-        let doubled = a.ends == ChainEnds::Folds && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
+        let doubled = a.middles != [false; 2] && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
         let long = if doubled { 2.0 * a.length } else { a.length };
-        let mut found =
-            ChainMatch { a: a.clone(), b: b.clone(), doubled, eased: false, score: 0.0, reasons: Vec::new() };
+        let mut found = ChainMatch {
+            a: a.clone(),
+            b: b.clone(),
+            doubled,
+            lapped: None,
+            eased: false,
+            score: 0.0,
+            reasons: Vec::new(),
+        };
         self.by_length(&mut found, long, tolerance)?;
         if !doubled {
             self.by_marks(&mut found)?;
         }
         self.by_ends(&mut found);
+        self.by_level(&mut found);
         self.by_grain(&mut found);
         if (a.hollow > HOLLOW && b.hollow < -HOLLOW) || (b.hollow > HOLLOW && a.hollow < -HOLLOW) {
             found.add(1.0, "one is hollow and the other bulges");
         }
         let count = a.runs.len() + b.runs.len();
-        found.score -= 0.25 * (count - 3) as f64;
+        found.score -= 0.25 * (count as f64 - 3.0);
         Some(found)
     }
 
     /// Whether the chain is one run of a piece that is not a half.
     fn is_whole(&self, chain: &RunChain) -> bool {
         matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].fold.is_none())
-            && chain.hollow.abs() < HOLLOW
+            && chain.hollow.abs() < BENT
+    }
+
+    /// Whether the chain is one run of a pair that is sewn to nothing yet: of a hood, or of a collar.
+    fn is_loose_half(&self, chain: &RunChain) -> bool {
+        let [(run, _)] = chain.runs[..] else { return false };
+        let piece = self.runs[run].piece;
+        self.outlines[piece].pair && self.is_loose(piece)
+    }
+
+    /// Whether no seam has an edge of a piece.
+    pub(super) fn is_loose(&self, piece: usize) -> bool {
+        self.runs.iter().zip(&self.free).all(|(run, free)| run.piece != piece || *free)
+    }
+
+    /// Whether a chain begins at a seam down the center, which may be left open above.
+    pub(super) fn opens_first(&self, chain: &RunChain) -> bool {
+        let beside = chain.runs.first().map(|&(run, forward)| self.sewn.beside(&self.runs[run], !forward));
+        beside.is_some_and(|end| self.sewn.is_middle(end) && !self.sewn.lies_on_fold(end))
+    }
+
+    /// A part of a seam between rings: two runs, of which the first may be a half of what the second is sewn to.
+    /// `None` where the right sides would not come together, or where a half does not begin in the middle.
+    pub(super) fn part(&self, one: (usize, bool), other: (usize, bool), doubled: bool) -> Option<ChainMatch> {
+        let mirrored = |(run, _): (usize, bool)| self.outlines[self.runs[run].piece].mirrored;
+        let (a, b) = (self.chain(&[one]), self.chain(&[other]));
+        let is_half = a.middles[0] != a.middles[1];
+        if one.1 == other.1 && !mirrored(one) && !mirrored(other) || doubled && (!is_half || mirrored(other)) {
+            return None;
+        }
+        Some(ChainMatch { a, b, doubled, lapped: None, eased: true, score: 0.0, reasons: Vec::new() })
     }
 
     fn by_length(&self, found: &mut ChainMatch, long: f64, tolerance: Tolerance) -> Option<()> {
@@ -204,10 +254,12 @@ impl ChainBook<'_> {
         };
         let opposite = a.joints.iter().filter(|&&at| near(at * scale, &places(b))).count();
         let across = b.joints.iter().filter(|&&at| near(at / scale, &places(a))).count();
+        let top = self.by_top(a, b);
         let apex = apex(self, b).map_or(0.0, |apex| {
             let off = |at: &f64| (at * scale - apex).abs() / b.length;
             a.joints.iter().map(off).fold(0.5, f64::min)
         });
+        found.score += top;
         if matched > 0 {
             found.add(1.5 + 0.75 * (matched - 1).min(2) as f64, "notches match");
         }
@@ -218,6 +270,24 @@ impl ChainBook<'_> {
         Some(())
     }
 
+    /// Points for a cap that is highest where the chain that it is sewn to is, at the shoulder, or against it.
+    fn by_top(&self, a: &RunChain, b: &RunChain) -> f64 {
+        let ([first, .., last], [_], Some(top)) = (&a.runs[..], &b.runs[..], apex(self, b)) else { return 0.0 };
+        let rise = |&(run, forward): &(usize, bool)| {
+            let path = &self.runs[run].path;
+            let up = (path.end() - path.start()).dot(&self.sewn.up);
+            if forward { up } else { -up }
+        };
+        let (run, forward) = b.runs[0];
+        let path = &self.runs[run].path;
+        let at = if forward { top } else { path.length() - top };
+        let cap = (path.point(at) - (path.start() + path.end()) / 2.0).dot(&self.sewn.up);
+        if a.ends != ChainEnds::Closed || rise(first) * rise(last) >= 0.0 {
+            return 0.0;
+        }
+        if (rise(first) > 0.0) == (cap > 0.0) { AT_TOP } else { -AT_TOP }
+    }
+
     fn by_ends(&self, found: &mut ChainMatch) {
         match (found.a.ends, found.b.ends) {
             (ChainEnds::Closed, ChainEnds::Closed) => found.add(1.5, "both go all round"),
@@ -225,13 +295,33 @@ impl ChainBook<'_> {
                 found.add(1.25, "it closes the ring that the other is sewn into");
             }
             (ChainEnds::Folds, ChainEnds::Folds) => found.add(1.0, "both go from middle to middle"),
-            (ChainEnds::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (ChainEnds::Folds | ChainEnds::Open, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (ChainEnds::Folds, ChainEnds::Open) if self.is_loose_half(&found.b) => {
+                found.add(1.0, "its halves go round both sides");
+            }
             (ChainEnds::Closed | ChainEnds::Folds, _) | (_, ChainEnds::Closed | ChainEnds::Folds) => found.score -= 1.0,
             _ => match [found.a.middles, found.b.middles] {
                 [[false, false], _] | [_, [false, false]] => {}
                 [a, b] if a == b => found.add(1.0, "both begin in the middle"),
                 _ => found.score -= 1.0,
             },
+        }
+    }
+
+    /// Waists and bands: an upper edge is sewn to a lower one.
+    fn by_level(&self, found: &mut ChainMatch) {
+        let facing = |chain: &RunChain| -> f64 {
+            let own = |&(run, _): &(usize, bool)| self.sewn.facing(&self.runs[run]) * self.runs[run].length();
+            chain.runs.iter().map(own).sum::<f64>() / chain.length
+        };
+        let [a, b] = [facing(&found.a), facing(&found.b)];
+        if a.abs().min(b.abs()) < LEVEL {
+            return;
+        }
+        if a * b < 0.0 {
+            found.add(0.75, "an upper and a lower edge");
+        } else {
+            found.score -= 0.75;
         }
     }
 

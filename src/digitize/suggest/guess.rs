@@ -3,7 +3,9 @@
 
 use super::Outline;
 use super::chains::ChainMatch;
-use super::run::{EdgeRun, is_fold};
+use super::corner::is_fold;
+use super::matches::Match;
+use super::run::EdgeRun;
 use crate::geometry::{Vec2, box_or_origin};
 use crate::pattern::{PlaceMeaning, PlaceWord, Side};
 
@@ -32,10 +34,13 @@ pub(super) fn guesses(
     runs: &[EdgeRun],
     chained: &[ChainMatch],
     mirrored: &[(EdgeRun, f64, String)],
+    matches: &[Match],
+    up: Vec2,
 ) -> Vec<Guess> {
     let mut guesses = vec![Guess::default(); outlines.len()];
     let mut facing: Vec<Option<GuessedSide>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
     let caps: Vec<&ChainMatch> = chained.iter().filter(|chain| is_cap(outlines, runs, chain)).collect();
+    let right = right(runs, &caps, up);
     for chain in &caps {
         // A double notch marks the back.
         for &(run, _) in &chain.a.runs {
@@ -57,14 +62,14 @@ pub(super) fn guesses(
                 chain.a.runs.iter().map(|&(run, _)| facing[runs[run].piece]).collect::<Option<Vec<GuessedSide>>>();
             if both.is_some_and(|both| both.contains(&GuessedSide::Back) && both.contains(&GuessedSide::Front)) {
                 // Seen from outside the back of the right arm lies left of its front.
-                let (start, end) = (sleeve.path.start().x, sleeve.path.end().x);
+                let [start, end] = [sleeve.path.start(), sleeve.path.end()].map(|p| p.dot(&right));
                 let back_is_left = (back_first == forward) == (start < end);
                 guesses[sleeve.piece].drawn = Some(if back_is_left { Side::Right } else { Side::Left });
             }
         }
     }
     for (run, _, reason) in mirrored.iter().filter(|(run, ..)| outlines[run.piece].pair) {
-        if reason == super::CROTCH_SAID {
+        if reason == super::middles::CROTCH_SAID {
             place(&mut guesses, run.piece, "leg", &facing);
         }
     }
@@ -73,11 +78,49 @@ pub(super) fn guesses(
         if let (Some(facing), Some(middle)) = (facing[piece], middle) {
             let [low, high] = box_or_origin(outlines[piece].edges.iter().flat_map(|e| e.path.sampled(1e-3)));
             // Seen from outside the wearer's left is right of the middle in front, and left of it behind.
-            let lies_right = middle.x < (low.x + high.x) / 2.0;
+            let lies_right = (middle - (low + high) / 2.0).dot(&right) < 0.0;
             guess.drawn = Some(if lies_right == (facing == GuessedSide::Front) { Side::Left } else { Side::Right });
         }
     }
+    spread(outlines, runs, chained, matches, &mut guesses);
     guesses
+}
+
+/// Tells which of a left and a right is drawn from the pieces that a piece is sewn to. Where both are walked against
+/// each other the drawn ones belong to each other, else one of them and the mirror image of the other. Of pieces of
+/// which nothing is told the first is a left one.
+fn spread(outlines: &[Outline], runs: &[EdgeRun], chained: &[ChainMatch], matches: &[Match], guesses: &mut [Guess]) {
+    let mut same: Vec<([usize; 2], bool)> = matches.iter().map(|m| ([m.a.piece, m.b.piece], m.opposed)).collect();
+    for chain in chained {
+        let pair = |a: &(usize, bool), b: &(usize, bool)| ([runs[a.0].piece, runs[b.0].piece], a.1 != b.1);
+        same.extend(chain.a.runs.iter().flat_map(|a| chain.b.runs.iter().map(move |b| pair(a, b))));
+    }
+    same.retain(|([a, b], _)| a != b && outlines[*a].mirrored && outlines[*b].mirrored);
+    let seeds: Vec<usize> = (0..guesses.len()).filter(|&k| guesses[k].drawn.is_some()).collect();
+    for seed in seeds.into_iter().chain((0..outlines.len()).filter(|&k| outlines[k].mirrored)) {
+        let mut open = vec![(seed, guesses[seed].drawn.unwrap_or(Side::Left))];
+        while let Some((piece, side)) = open.pop() {
+            guesses[piece].drawn = Some(side);
+            for ([a, b], alike) in &same {
+                let next = if *a == piece { *b } else { *a };
+                if (*a == piece || *b == piece) && guesses[next].drawn.is_none() {
+                    let side = if *alike { side } else { side.other() };
+                    guesses[next].drawn = Some(side);
+                    open.push((next, side));
+                }
+            }
+        }
+    }
+}
+
+/// To the right in the drawing, as its pieces stand upright: the cap of a sleeve is its upper end.
+fn right(runs: &[EdgeRun], caps: &[&ChainMatch], up: Vec2) -> Vec2 {
+    let bulge = |cap: &&ChainMatch| {
+        let path = &runs[cap.b.runs.first()?.0].path;
+        Some((path.point(path.length() / 2.0) - (path.start() + path.end()) / 2.0).dot(&up))
+    };
+    let up = if caps.first().and_then(bulge).is_some_and(|bulge| bulge < 0.0) { -up } else { up };
+    Vec2::new(-up.y, up.x)
 }
 
 /// The meaning of a piece's name.

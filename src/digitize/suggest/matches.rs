@@ -1,8 +1,9 @@
 //! Two runs that may be sewn together, and how much speaks for it.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use super::notched::{compared, reversed};
+use super::over_darts::are_legs;
 use super::run::{EdgeRun, LOOKS};
 use super::{Outline, Tolerance};
 
@@ -18,6 +19,8 @@ const HOLLOW: f64 = 0.04;
 /// two-part sleeve at the elbow. Necklines and armholes are shorter than this (metres).
 const NIPPED: f64 = 0.09;
 const NIPPED_LENGTH: f64 = 0.3;
+/// That two shorter runs are alike says nothing where both lie farther than this share within their pieces.
+const SCOOPED: f64 = 0.015;
 /// Runs that are sewn together lie alike to the grain, to this (radians, 12 degrees); farther apart than the second (45
 /// degrees) they seldom are.
 const TO_GRAIN: [f64; 2] = [0.21, 0.79];
@@ -28,10 +31,6 @@ const SQUARE: f64 = 0.14;
 const SLEEVE: std::ops::Range<f64> = 0.6..5.0;
 /// Two runs that both lie farther than this share of their chords outside these (hems) are not sewn to each other.
 const BULGING: f64 = -0.06;
-/// Legs of a dart differ by less (metres), and the angle inside the piece between them is within this (250 to 355
-/// degrees): where it is a full turn, it is a slit.
-const LEGS_APART: f64 = 1e-3;
-const DART: std::ops::Range<f64> = 250.0 / 180.0 * PI..355.0 / 180.0 * PI;
 /// Points for the legs of a dart.
 pub(super) const DART_SCORE: f64 = 6.0;
 
@@ -42,6 +41,8 @@ pub(super) struct Match {
     pub(super) b: EdgeRun,
     /// Whether the start of the one meets the end of the other.
     pub(super) opposed: bool,
+    /// Whether one is longer, and eased in.
+    pub(super) eased: bool,
     /// How much speaks for it; no unit.
     pub(super) score: f64,
     pub(super) reasons: Vec<String>,
@@ -58,6 +59,43 @@ impl Match {
     }
 }
 
+/// A side is longer than the one that it is sewn to by no more than this share, which is eased in, or by the second
+/// where both come as many corners after another seam of their pieces. It is no shorter than this (metres).
+const EASED: [f64; 2] = [0.03, 0.11];
+const EASED_LENGTH: f64 = 0.06;
+/// The note on two sides of one course.
+const SAME_COURSE: &str = "same course";
+/// Points for that order.
+const IN_STEP: f64 = 1.0;
+
+/// A seam of two sides that run down the grain, of which one is a little longer.
+pub(super) fn eased(
+    outlines: &[Outline],
+    [a, b]: [&EdgeRun; 2],
+    tolerance: Tolerance,
+    opposed: bool,
+    in_step: impl Fn(&Match) -> bool,
+) -> Option<Match> {
+    let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
+    let more = long.length() - short.length();
+    let down = |run: &EdgeRun| to_grain(outlines, run).is_some_and(|angle| angle <= TO_GRAIN[0]);
+    let fits =
+        more > tolerance.of(long.length()) && more <= EASED[1] * short.length() && short.length() >= EASED_LENGTH;
+    if short.piece == long.piece || !fits || !down(a) || !down(b) || a.hollow().min(b.hollow()) > NIPPED {
+        return None;
+    }
+    let mut found = one(outlines, short, long, opposed, 1.0)?;
+    found.eased = true;
+    found.reasons.push("the longer one is eased in".to_owned());
+    if in_step(&found) {
+        found.score += IN_STEP;
+        found.reasons.push("they follow other seams of both".to_owned());
+    } else if more > EASED[0] * short.length() || !found.reasons.iter().any(|reason| reason == SAME_COURSE) {
+        return None;
+    }
+    Some(found)
+}
+
 /// Both ways to lay two runs along each other, the better first; none where no seam is there.
 pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance: Tolerance) -> Vec<Match> {
     let off = (a.length() - b.length()).abs();
@@ -69,11 +107,16 @@ pub(super) fn matches(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, tolerance:
     if off > most || a.hollow().min(b.hollow()) > hollow || a.hollow().max(b.hollow()) < BULGING {
         return Vec::new();
     }
-    // Right sides lie together where both are walked against each other; else one of them must be a mirror image.
-    let ways: &[bool] = if outlines[a.piece].mirrored || outlines[b.piece].mirrored { &[true, false] } else { &[true] };
-    let mut found: Vec<Match> = ways.iter().filter_map(|&way| one(outlines, a, b, way, off / most)).collect();
+    let mut found: Vec<Match> =
+        ways(outlines, a, b).iter().filter_map(|&way| one(outlines, a, b, way, off / most)).collect();
     found.sort_by(|x, y| y.score.total_cmp(&x.score));
     found
+}
+
+/// Whether two runs may be walked against each other (`true`) or along each other. Right sides lie together where they
+/// are walked against each other, else one of them must be a mirror image.
+pub(super) fn ways(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun) -> &'static [bool] {
+    if outlines[a.piece].mirrored || outlines[b.piece].mirrored { &[true, false] } else { &[true] }
 }
 
 fn one(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, opposed: bool, off: f64) -> Option<Match> {
@@ -101,7 +144,7 @@ fn one(outlines: &[Outline], a: &EdgeRun, b: &EdgeRun, opposed: bool, off: f64) 
             count(-1.0, "");
         }
     }
-    Some(Match { a: a.clone(), b: b.clone(), opposed, score, reasons })
+    Some(Match { a: a.clone(), b: b.clone(), opposed, eased: false, score, reasons })
 }
 
 /// The evidence of notches. `None` where a single one would meet a double one.
@@ -142,8 +185,11 @@ fn by_course(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> (f64, &'static str) {
     if a.bow().max(b.bow()) < STRAIGHT {
         return (0.25, "");
     }
+    // Armholes and necklines are alike, too.
+    let scooped = a.hollow().min(b.hollow()) > SCOOPED && a.length() < NIPPED_LENGTH;
     match differences(a, b, opposed) {
-        [same, _] if same <= ALIKE => (1.5, "same course"),
+        [same, _] if same <= ALIKE && scooped => (0.0, ""),
+        [same, _] if same <= ALIKE => (1.5, SAME_COURSE),
         [_, inverse] if inverse <= ALIKE => (1.25, "courses fit into each other"),
         [same, inverse] if same.min(inverse) <= 2.0 * ALIKE => (0.5, ""),
         _ if a.bow().min(b.bow()) < STRAIGHT => (-1.0, ""),
@@ -183,7 +229,13 @@ fn may_close(a: &EdgeRun, b: &EdgeRun, opposed: bool) -> bool {
 
 /// The legs of a dart that is drawn as a wedge in the outline: runs that follow each other round its tip.
 pub(super) fn dart(a: &EdgeRun, b: &EdgeRun, angle: f64) -> Option<Match> {
-    let legs = DART.contains(&angle) && (a.length() - b.length()).abs() <= LEGS_APART;
     let reasons = vec!["legs of a dart".to_owned()];
-    legs.then(|| Match { a: a.clone(), b: b.clone(), opposed: true, score: DART_SCORE, reasons })
+    are_legs([a.length(), b.length()], angle).then(|| Match {
+        a: a.clone(),
+        b: b.clone(),
+        opposed: true,
+        eased: false,
+        score: DART_SCORE,
+        reasons,
+    })
 }

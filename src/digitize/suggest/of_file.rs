@@ -1,8 +1,11 @@
 //! Seams that the pieces of a garment file may still have.
 
+use std::collections::BTreeSet;
+
 use super::{Outline, Suggestion, suggest};
 use crate::digitize::edges::FileEdge;
 use crate::digitize::notches::EdgeNotch;
+use crate::digitize::sizes::noted_size;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{AllowanceFile, CutKind, GarmentFile, PieceFile, Unit, whole_pieces};
 
@@ -10,7 +13,15 @@ use crate::pattern::{AllowanceFile, CutKind, GarmentFile, PieceFile, Unit, whole
 /// Pieces whose outline cannot be read have none.
 pub fn suggestions(file: &GarmentFile) -> Vec<Suggestion> {
     let pieces = whole_pieces(file);
-    let outlines: Vec<Outline> = pieces.iter().filter_map(|piece| outline(piece, file.unit())).collect();
+    // Sizes beside each other, as an import writes them.
+    let sizes: Vec<Option<&str>> = pieces.iter().map(|piece| noted_size(&piece.note.as_ref()?.value)).collect();
+    let distinct: BTreeSet<&str> = sizes.iter().flatten().copied().collect();
+    let size = |said: Option<&str>| distinct.iter().position(|own| Some(*own) == said).filter(|_| distinct.len() > 1);
+    let outlines: Vec<Outline> = pieces
+        .iter()
+        .zip(&sizes)
+        .filter_map(|(piece, said)| Some(Outline { size: size(*said), ..outline(piece, file.unit())? }))
+        .collect();
     let (mut found, _) = suggest(outlines);
     let sewn: Vec<String> =
         file.seams.iter().flat_map(|seam| seam.sew.iter().chain(&seam.to)).map(|edge| bare(&edge.value)).collect();
@@ -63,9 +74,10 @@ fn outline(piece: &PieceFile, unit: Unit) -> Option<Outline> {
         allowances: edges.iter().map(|edge| allowance(piece, &edge.name, unit)).collect(),
         edges,
         mirrored: pair || fold.is_some(),
+        single: piece.cut.as_ref().is_none_or(|cut| cut.value == CutKind::One),
         fold,
         pair,
-        warp: arrow.and_then(|[tail, head]| (head - tail).try_normalize(0.0)),
+        warp: arrow.map_or(Some(Vec2::y()), |[tail, head]| (head - tail).try_normalize(0.0)),
         material: piece.fabric.as_ref().map(|fabric| fabric.value.clone()),
         size: None,
     })

@@ -1,6 +1,8 @@
-//! Outlines from corner to corner: what a seam takes.
+//! Outlines from corner to corner: what a seam takes. What goes on over a dart is one run, as it is with the dart sewn.
 
 use super::Outline;
+use super::corner::{is_fold, turn_before};
+use super::over_darts::{closed_course, follows, over_darts};
 use crate::digitize::edges::CORNER;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::words_of;
@@ -26,12 +28,14 @@ pub(super) struct RunNotch {
     pub(super) double: bool,
 }
 
-/// Edges of a piece that follow each other without a corner, or some of them.
+/// Edges of a piece that follow each other without a corner, or some of them; also over darts, whose legs are none of
+/// them.
 #[derive(Clone, Debug)]
 pub(super) struct EdgeRun {
     pub(super) piece: usize,
     /// Their numbers, clockwise.
     pub(super) edges: Vec<usize>,
+    /// Their course, with the darts between them closed.
     pub(super) path: Path,
     /// Notches inside, from the start.
     pub(super) marks: Vec<RunNotch>,
@@ -42,15 +46,18 @@ pub(super) struct EdgeRun {
 }
 
 impl EdgeRun {
-    fn new(outline: &Outline, piece: usize, edges: &[usize]) -> Option<Self> {
+    pub(super) fn new(outline: &Outline, piece: usize, edges: &[usize]) -> Option<Self> {
         let own = |k: usize| &outline.edges[k];
-        let path = edges.iter().map(|&k| own(k).path.clone()).reduce(|line, next| line.joined(&next))?;
-        let (mut marks, mut done) = (Vec::new(), 0.0);
-        for &k in edges {
+        let path = closed_course(outline, edges)?;
+        let (mut marks, mut done, mut mouths) = (Vec::new(), 0.0, Vec::new());
+        for (i, &k) in edges.iter().enumerate() {
             marks.extend(own(k).notches.iter().map(|n| RunNotch { at: done + n.at, double: n.double }));
             done += own(k).path.length();
+            mouths.extend(edges.get(i + 1).filter(|next| !follows(outline, k, **next)).map(|_| done));
         }
-        marks.retain(|mark| mark.at > AT_END && mark.at < path.length() - AT_END);
+        // Notches at a dart's mouth are the dart's.
+        let is_mouth = |at: f64| mouths.iter().any(|mouth| (mouth - at).abs() <= AT_END);
+        marks.retain(|mark| mark.at > AT_END && mark.at < path.length() - AT_END && !is_mouth(mark.at));
         let count = outline.edges.len();
         let before = (edges[0] + count - 1) % count;
         let end_marks = [before, edges[edges.len() - 1]].map(|k| {
@@ -101,21 +108,16 @@ fn profile(path: &Path) -> [f64; LOOKS] {
 pub(super) fn runs(outlines: &[Outline]) -> Vec<EdgeRun> {
     let of = |(piece, outline): (usize, &Outline)| {
         let sewn = |edges: &Vec<usize>| !is_fold(outline, edges[0]) && !is_hem(outline, edges[0]);
-        let parts = parts(outline).into_iter().filter(sewn);
+        let parts = over_darts(outline, parts(outline)).into_iter().filter(sewn);
         let runs: Vec<EdgeRun> = parts.filter_map(|edges| EdgeRun::new(outline, piece, &edges)).collect();
         runs.into_iter().filter(|run| run.length() >= SHORTEST)
     };
     outlines.iter().enumerate().flat_map(of).collect()
 }
 
-/// Whether an edge lies on the fold of the cloth.
-pub(super) fn is_fold(outline: &Outline, edge: usize) -> bool {
-    outline.fold.as_ref() == Some(&outline.edges[edge].name)
-}
-
 /// Numbers of the edges of each part of an outline: those that go on into each other without a corner, none across the
 /// end of a fold or of a hem.
-fn parts(outline: &Outline) -> Vec<Vec<usize>> {
+pub(super) fn parts(outline: &Outline) -> Vec<Vec<usize>> {
     let count = outline.edges.len();
     let kind = |k: usize| (is_fold(outline, k), is_hem(outline, k));
     let begins = |k: usize| turn_before(outline, k).abs() > CORNER || kind(k) != kind((k + count - 1) % count);
@@ -128,13 +130,6 @@ fn parts(outline: &Outline) -> Vec<Vec<usize>> {
         }
     }
     parts
-}
-
-/// By how much the outline turns where an edge begins, clockwise positive.
-pub(super) fn turn_before(outline: &Outline, edge: usize) -> f64 {
-    let before = &outline.edges[(edge + outline.edges.len() - 1) % outline.edges.len()].path;
-    let (from, to) = (before.tangent(before.length()), outline.edges[edge].path.tangent(0.0));
-    from.perp(&to).atan2(from.dot(&to))
 }
 
 /// Whether an edge is turned up and not sewn: it is called so, or its allowance is that of a hem.

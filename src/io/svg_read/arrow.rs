@@ -8,6 +8,8 @@ const SHORTEST: f64 = 0.02;
 const BARBS: (f64, f64) = (0.25, 0.04);
 /// Largest distance of a barb's end aside of its shaft: a share of its length, and metres.
 const ASIDE: (f64, f64) = (0.15, 0.02);
+/// Barbs go back from the tip by no less than this share of how far they go aside.
+const BACK: f64 = 0.2;
 /// Nearer to the shaft's line than this (metres) a point is on it.
 const ON_SHAFT: f64 = 2e-4;
 /// More points than this are no arrow.
@@ -30,9 +32,12 @@ pub(super) fn shaft(lines: &[Path]) -> Option<Path> {
         let off_end = place(*p).abs().min((place(*p) - length).abs());
         off_end <= BARBS.0 * length && off_end <= BARBS.1 && aside(*p).abs() <= (ASIDE.0 * length).min(ASIDE.1)
     };
-    // An arrowhead has a point to either side.
+    // An arrowhead has a point to either side, back from its tip: the bars of a buttonhole are square to the line.
     let has_head = |at_end: bool| {
-        let own = |p: &&Vec2| (place(**p) > 0.5 * length) == at_end && aside(**p).abs() > ON_SHAFT;
+        let off = |p: Vec2| place(p).abs().min((place(p) - length).abs());
+        let own = |p: &&Vec2| {
+            (place(**p) > 0.5 * length) == at_end && aside(**p).abs() > ON_SHAFT && off(**p) >= BACK * aside(**p).abs()
+        };
         let sides: Vec<f64> = points.iter().filter(own).map(|p| aside(*p)).collect();
         sides.iter().any(|s| *s > 0.0) && sides.iter().any(|s| *s < 0.0)
     };
@@ -64,7 +69,13 @@ mod tests {
         // One head, at the end where the line begins.
         let one = read("M 10 10 L 200 10 M 20 15 L 10 10 L 20 5");
         assert_eq!(one, Some([Vec2::new(200.0, 10.0), Vec2::new(10.0, 10.0)]));
-        for none in ["M 0 0 H 200 V 10 H 0 Z", "M 0 0 L 200 10 L 0 20", "M 0 0 H 200", "M 0 0 H 200 M 100 5 V -5"] {
+        for none in [
+            "M 0 0 H 200 V 10 H 0 Z",
+            "M 0 0 L 200 10 L 0 20",
+            "M 0 0 H 200",
+            "M 0 0 H 200 M 100 5 V -5",
+            "M 0 0 H 25 M 0 3 V -3 M 25 3 V -3",
+        ] {
             assert!(read(none).is_none(), "{none}");
         }
     }

@@ -286,13 +286,12 @@ impl SvgReader<'_, '_> {
         let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
         let paths: Vec<Path> =
             paths.into_iter().map(|path| path.mapped(scope.frame.linear, scope.frame.shift)).collect();
+        if !paths.iter().all(is_sized) {
+            return Err(self.value(node, "a path of this size", &commands));
+        }
         let arrow = if role == Role::Unknown { shaft(&paths) } else { None };
         let role = if arrow.is_some() { Role::Arrow } else { role };
         for path in arrow.map_or(paths, |shaft| vec![shaft]) {
-            let reaches = [path.start().amax(), path.end().amax(), path.length()];
-            if reaches.iter().any(|r| r.is_nan() || *r > FARTHEST) {
-                return Err(self.value(node, "a path of this size", &commands));
-            }
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
                 let (group, layer) = (scope.group.clone(), scope.layer.clone());
@@ -324,6 +323,11 @@ impl SvgReader<'_, '_> {
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
         SvgError::Value { line: self.line(node), what, text: shown(text, SHOWN) }
     }
+}
+
+/// Whether a path is no larger, and no farther off, than a pattern may be.
+fn is_sized(path: &Path) -> bool {
+    [path.start().amax(), path.end().amax(), path.length()].iter().all(|reach| *reach <= FARTHEST)
 }
 
 /// The title of the drawing.
@@ -404,12 +408,19 @@ fn group_name(node: Node) -> Option<GroupName> {
     if let Some(part) = name.strip_prefix("fs-stack-").or(name.strip_prefix("fs-part-")) {
         return Some(GroupName { name: part.rsplit('.').next().unwrap_or(part).to_owned(), is_piece: true });
     }
-    // Layers hold pieces; they are none.
+    // Layers that hold groups or closed lines with names hold pieces; they are none.
     let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
-    let is_label = |c: Node| c.attributes().any(|a| a.name() == "label");
+    let is_piece = |c: Node| c.attributes().any(|a| a.name() == "label") && is_closed_shape(c);
     let holds = name.starts_with("fs-")
-        || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_label(c));
+        || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_piece(c));
     Some(GroupName { name: name.to_owned(), is_piece: !holds })
+}
+
+/// Whether an element is a closed line by itself.
+fn is_closed_shape(node: Node) -> bool {
+    let ends_closed = || node.attribute("d").is_some_and(|d| d.trim_end().ends_with(['z', 'Z']));
+    let name = node.tag_name().name();
+    SHAPES.contains(&name) || name == "polygon" || name == "path" && ends_closed()
 }
 
 /// Names that programs give, without their numbers: `g123`, `path45-6`, `layer1`, FreeSewing's `fs-7`.
