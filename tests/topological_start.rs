@@ -340,3 +340,39 @@ fn scaled(part: &BodyPart, times: f64) -> BodyPart {
 fn a_skirt_with_slits_is_sewn() {
     is_sewn_round(&slit_skirt(10.0), &["legs", "torso"]);
 }
+
+/// Pieces may stand in any order in a file. One that lies on a piece that lies on another one itself started at the
+/// origin of the coordinates where it stood first.
+#[test]
+fn a_piece_is_laid_after_the_one_that_it_lies_on() {
+    let text = "garment: 1
+name: skirt with a facing that is turned up
+body: woman_92
+fabrics: {shell: cotton_poplin}
+pieces:
+  turned_up:
+    layer: 1
+    outline: {start: -200 20, top: L 200 20, right: L 212 100, edge: L -212 100, left: L -200 20}
+  facing:
+    layer: 1
+    outline: {start: -200 0, waist: L 200 0, right: L 212 100, bottom: L -212 100, left: L -200 0}
+  front:
+    place: hip front
+    outline: {start: -200 0, waist: L 200 0, right: L 248 400, hem: L -248 400, left: L -200 0}
+  back: {like: front, place: hip back}
+seams:
+  left: {sew: front.right, to: back.left}
+  right: {sew: front.left, to: back.right}
+  faced: {sew: facing.waist, to: front.waist, face: same}
+  turned: {sew: turned_up.edge, to: facing.bottom, face: same}
+free: [back.waist, '*.hem', facing.right, facing.left, turned_up.top, turned_up.right, turned_up.left]
+";
+    let garment = read_text("skirt", "skirt.yaml", text).expect("a garment");
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    let job = Job::new(Path::new("skirt.yaml"), garment, &overrides).expect("a job");
+    assert_eq!(glue(&job.garment, &job.mesh, &[]).left_out, [0, 1], "both lie on other cloth");
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    let highest = |piece: usize| job.mesh.pieces[piece].particles.clone().map(|p| x[p].y).fold(0.0, f64::max);
+    let lowest = |piece: usize| job.mesh.pieces[piece].particles.clone().map(|p| x[p].y).fold(f64::INFINITY, f64::min);
+    assert!(lowest(0) > highest(1) - 0.15, "from {} m, on a facing up to {} m", lowest(0), highest(1));
+}

@@ -192,7 +192,8 @@ fn inward(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Vec2> {
     sums.into_iter().map(|(sum, count)| sum / f64::max(count, 1.0)).collect()
 }
 
-/// Puts the pieces that lie on others on them, those first whose hosts have their place in `x` from the first.
+/// Puts the pieces that lie on others on them, each after its hosts. Those that lie on no such piece have their place in
+/// `x`.
 pub(in crate::sew) fn lay(
     garment: &Garment,
     mesh: &ClothMesh,
@@ -203,7 +204,11 @@ pub(in crate::sew) fn lay(
     let mut order: Vec<(usize, &Laid)> =
         laid.iter().enumerate().filter_map(|(own, laid)| Some((own, laid.as_ref()?))).collect();
     order.sort_by_key(|&(own, _)| (garment.pieces[own].layer.unsigned_abs(), own));
-    for (own, laid) in order {
+    let mut has_place: Vec<bool> = laid.iter().map(Option::is_none).collect();
+    let can_lie = |laid: &Laid, has_place: &[bool]| laid.hosts.iter().all(|host| has_place[host.piece]);
+    while let Some(next) = order.iter().position(|(_, laid)| can_lie(laid, &has_place)) {
+        let (own, laid) = order.remove(next);
+        has_place[own] = true;
         let skin = |host: &Host| (normals(open(mesh, sheet, host.piece), x), off(mesh, sheet, host, own));
         let skins: Vec<(Vec<Vec3>, f64)> = laid.hosts.iter().map(skin).collect();
         for (p, (host, spot)) in mesh.pieces[own].particles.clone().zip(&laid.spots) {
