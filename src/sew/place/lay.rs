@@ -192,8 +192,7 @@ fn inward(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Vec2> {
     sums.into_iter().map(|(sum, count)| sum / f64::max(count, 1.0)).collect()
 }
 
-/// Puts the pieces that lie on others on them, each after its hosts. Those that lie on no such piece have their place in
-/// `x`.
+/// Puts the pieces that lie on others on them, each after its hosts. Pieces that lie on none have their place in `x`.
 pub(in crate::sew) fn lay(
     garment: &Garment,
     mesh: &ClothMesh,
