@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn symmetric_outlines_are_told_whichever_way_their_axis_lies() {
         for text in
-            ["M 0 0 H 200 V 300 H 0 Z", "M 20 0 H 180 L 200 300 H 0 Z", "M 0 0 L 150 -150 L 300 150 L 150 300 Z"]
+            ["M 0 0 H 200 V 300 H 0 Z", "M 20 0 H 180 L 200 300 H 0 Z", "M 0 0 L 150 -150 L 300 300 L -150 150 Z"]
         {
             assert!(is_symmetric(&path(text)), "{text}");
         }
