@@ -244,7 +244,7 @@ fn fold_of(piece: &PieceFile) -> Option<&str> {
     }
 }
 
-/// What the drawing says of a piece that a garment file has no key for: its number, its material and its size.
+/// The note of a piece: its number, its material and its size in the drawing, for which a garment file has no key.
 fn noted(piece: &Traced) -> Option<String> {
     let number = piece.number.as_ref().map(|number| format!("no. {} of the drawing", plain(number)));
     let size = piece.size_name.as_ref().map(|size| size_note(&plain(size)));

@@ -38,7 +38,7 @@ const LEAST: f64 = 2.0;
 /// It is in doubt while another one for its edges is nearer to it than this, in points.
 const MARGIN: f64 = 0.6;
 
-/// What goes all round.
+/// Runs that follow one another round an opening, in a closed ring.
 struct Ring {
     /// Every way to walk it round: from each of its runs, in both directions.
     walks: Vec<RunChain>,

@@ -1,4 +1,4 @@
-//! Outlines from corner to corner: what a seam takes. What goes on over a dart is one run, as it is with the dart sewn.
+//! Outlines in runs from corner to corner, which seams take. A run goes on over a dart, as it does once that is sewn.
 
 use super::Outline;
 use super::corner::{is_fold, turn_before};

@@ -1,4 +1,4 @@
-//! What is taken of what fits: the best first, as long as nothing else that needs one of its edges comes near it.
+//! Takes seams from the candidates, the best first. One is taken if no other that needs one of its edges comes near it.
 
 use super::Outline;
 use super::Tolerance;

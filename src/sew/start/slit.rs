@@ -16,9 +16,9 @@ use crate::mesh::ClothMesh;
 const SHARPEST: f64 = 0.26;
 /// A rim that turns by more than this is at a corner, where a slit's sides end: 40°.
 const CORNER: f64 = 0.7;
-/// The sides of a slit are no further apart than this share of the way from its end, and an edge of a start mesh more,
-/// metres. Cutaway fronts are.
+/// The sides of a slit are no further apart than this share of the way from its end, and [`EDGE`]. Cutaway fronts are.
 const OPEN: f64 = 0.25;
+/// Length of an edge of a start mesh, metres.
 const EDGE: f64 = 0.025;
 /// Shorter ones stay open, metres.
 const SHORTEST: f64 = 0.06;
