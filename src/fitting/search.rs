@@ -53,6 +53,24 @@ pub(super) struct KnobSearch<'a> {
 /// Amounts of a garment that was draped, its figures and the drape.
 type Tried = (Vec<f64>, Vec<f64>, FittedDrape);
 
+/// A garment that meets all wants when it is draped from nothing.
+struct Met {
+    /// Amounts of the knobs, mm.
+    at: Vec<f64>,
+    /// Its figures.
+    values: Vec<f64>,
+    new: New,
+    /// Its problems that the garment before did not have.
+    worse: Vec<String>,
+}
+
+impl Met {
+    /// This garment or the other, whichever has its figures nearer to their aims.
+    fn or_nearer(self, other: Self, figures: &[Figure]) -> Self {
+        if cost(figures, &self.values) < cost(figures, &other.values) { self } else { other }
+    }
+}
+
 impl<'a> KnobSearch<'a> {
     /// Drapes the garment, and finds its figures and knobs.
     pub(super) fn begin(asked: &'a Asked<'a>, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, PipelineError> {
@@ -94,29 +112,51 @@ impl<'a> KnobSearch<'a> {
     }
 
     /// Drapes new files from nothing, until one has the figures that are wanted, or none better is to be had.
+    ///
+    /// Drapes that go on from one another differ a little from one that begins anew. Figures that are met but not near
+    /// their aims are therefore corrected once, with what the drape from nothing taught.
     fn verify(mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<Fitting, PipelineError> {
         let mut at = self.rounded(&self.model.at);
+        let mut met: Option<Met> = None;
         loop {
             let (new, draped) = self.verified(&at, progress)?;
             let Some(values) = self.values(&draped.report) else {
-                self.refused =
-                    self.figures.iter().filter(|f| f.measured(&draped.report).is_none()).map(Figure::missing).collect();
-                return Ok(self.told(None, &[]));
+                let missing = self.figures.iter().filter(|f| f.measured(&draped.report).is_none());
+                self.refused = missing.map(Figure::missing).collect();
+                return Ok(self.ended(met));
             };
             self.model.learn(&at, &values);
             self.model.go(&at, &values);
+            let is_correction = met.is_some();
             if self.figures.iter().zip(&values).all(|(f, v)| f.is_met(*v)) {
                 let worse = self.worse(&draped.report);
-                return Ok(self.told(Some(new), &worse));
+                let this = Met { at: at.clone(), values, new, worse };
+                met = Some(match met {
+                    Some(other) => this.or_nearer(other, &self.figures),
+                    None => this,
+                });
             }
             let next = self.rounded(&self.best());
-            if next == at || self.drapes >= self.asked.drapes {
-                let reasons = reasons(&self.model, &self.figures, &self.knobs);
-                self.refused = if reasons.is_empty() { vec![self.not_reached()] } else { reasons };
-                return Ok(self.told(None, &[]));
+            let is_best = next == at || (met.is_some() && self.is_near());
+            if is_correction || is_best || self.drapes >= self.asked.drapes {
+                return Ok(self.ended(met));
             }
             at = next;
         }
+    }
+
+    /// The outcome with the garment that meets all wants, or with the reasons why none does.
+    fn ended(mut self, met: Option<Met>) -> Fitting {
+        if let Some(met) = met {
+            self.refused = Vec::new();
+            self.model.go(&met.at, &met.values);
+            return self.told(Some(met.new), &met.worse);
+        }
+        if self.refused.is_empty() {
+            let reasons = reasons(&self.model, &self.figures, &self.knobs);
+            self.refused = if reasons.is_empty() { vec![self.not_reached()] } else { reasons };
+        }
+        self.told(None, &[])
     }
 
     fn is_near(&self) -> bool {
