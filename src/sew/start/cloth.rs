@@ -42,20 +42,18 @@ impl Around {
 pub struct Distances<'a> {
     glued: &'a Glued,
     flat: &'a [Vec2],
-    source: Vec<[u32; 3]>,
     around: Around,
 }
 
 impl<'a> Distances<'a> {
     /// Of this surface.
     pub fn new(glued: &'a Glued, mesh: &'a ClothMesh) -> Self {
-        let source = glued.source.iter().map(|&t| mesh.triangles[t as usize]).collect();
-        Self { glued, flat: &mesh.flat, source, around: Around::new(glued) }
+        Self { glued, flat: &mesh.flat, around: Around::new(glued) }
     }
 
     /// Flat corners of a triangle of the surface.
     pub fn corners(&self, triangle: usize) -> [Vec2; 3] {
-        self.source[triangle].map(|p| self.flat[p as usize])
+        self.glued.corners[triangle].map(|p| self.flat[p as usize])
     }
 
     /// Distance of every node from the nearest of these, metres; infinite in other parts.

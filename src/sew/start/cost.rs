@@ -21,6 +21,8 @@ const EMPTY_WIDE: f64 = 0.3;
 /// of the cloth that is symmetric with it), and of two that may be either.
 const UNLIKE: f64 = 6.0;
 const UNLIKE_TWINS: f64 = 3.0;
+/// Both arms alone through one opening, as of a halter, that is not its own mirror image: a top over one shoulder.
+const LOPSIDED: f64 = 2.0;
 
 /// The cost of dealing these ends to an opening of this girth.
 pub(super) fn girth_cost(girth: f64, ends: Ends, range: Range) -> f64 {
@@ -73,14 +75,23 @@ pub(super) fn prior(ends: &[Ends]) -> f64 {
 }
 
 /// The cost of breaking the mirror symmetry of openings.
+pub(super) struct Unlike {
+    /// Of unlike ends of two openings; on the diagonal, of one opening's ends that are not their own mirror image.
+    pub(super) pairs: Vec<Vec<f64>>,
+    /// Of both arms alone through an opening.
+    pub(super) arms: Vec<f64>,
+}
+
+/// What it costs to break the mirror symmetry of openings.
 pub(super) fn unlike(
     mirror: &Mirror,
     openings: &[GluedOpening],
     stretches: &[Vec<RimStretch>],
     spacing: f64,
-) -> Vec<Vec<f64>> {
+) -> Unlike {
     let n = openings.len();
     let maps = |i: usize, j: usize| mirror.maps(&stretches[i], &stretches[j], spacing);
+    let arms = (0..n).map(|i| if maps(i, i) { 0.0 } else { LOPSIDED }).collect();
     let mut out = vec![vec![0.0; n]; n];
     for i in 0..n {
         let partners: Vec<usize> =
@@ -92,5 +103,5 @@ pub(super) fn unlike(
             _ => partners.iter().for_each(|&j| out[i][j] = UNLIKE_TWINS),
         }
     }
-    out
+    Unlike { pairs: out, arms }
 }

@@ -4,7 +4,7 @@
 //! openings. All dealings are tried.
 
 use super::cloth::Distances;
-use super::cost::{beyond, girth_cost, prior, unlike};
+use super::cost::{Unlike, beyond, girth_cost, prior, unlike};
 use super::deal_error::DealError;
 use super::ends::{End, Ends};
 use super::girths::Sizes;
@@ -152,7 +152,7 @@ struct DealCosts<'a> {
     /// Least distance between two openings.
     apart: Vec<Vec<f64>>,
     /// The cost of two openings whose ends are no mirror images; on the diagonal, of one that is not its own.
-    unlike: Vec<Vec<f64>>,
+    unlike: Unlike,
 }
 
 /// A dealing and what it costs.
@@ -278,11 +278,14 @@ impl<'a> DealCosts<'a> {
         for (a, &i) in own.iter().enumerate() {
             cost += self.cost[i][ends[a].index()];
             if ends[a].mirrored() != ends[a] {
-                cost += self.unlike[i][i];
+                cost += self.unlike.pairs[i][i];
+            }
+            if ends[a] == Ends::ARMS {
+                cost += self.unlike.arms[i];
             }
             for (b, &j) in own.iter().enumerate().skip(a + 1) {
                 if ends[a].mirrored() != ends[b] {
-                    cost += self.unlike[i][j];
+                    cost += self.unlike.pairs[i][j];
                 }
                 let same = self.sided[i] * self.sided[j] * side(ends[a]) * side(ends[b]);
                 cost += CROSSED * (-same).max(0.0);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::crossing::{CrossedEnd, Exchange};
 use super::laps::{Lap, laps};
-use super::layers;
+use super::layers::{self, Sheets};
 use super::openings::rims;
 use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
@@ -29,16 +29,19 @@ const ROLL: f64 = 1.0;
 pub struct Glued {
     /// The node of every particle; `None` for those of pieces left out, and of what is turned over at a pressed fold.
     pub node_of: Vec<Option<u32>>,
-    /// Corners as nodes; they run as the pieces' triangles do.
+    /// Corners as nodes; they run as the pieces' triangles do, and the other way round in pieces that are turned over.
     pub triangles: Vec<[u32; 3]>,
-    /// The mesh triangle of each.
-    pub source: Vec<u32>,
+    /// The particles of the same corners.
+    pub corners: Vec<[u32; 3]>,
     /// Number of nodes.
     pub count: usize,
     /// Connected part of every node, numbered by its first node.
     pub part_of: Vec<u32>,
     /// Indices of the pieces left out, rising: what lies on other cloth, and patches that closures alone hold.
     pub left_out: Vec<usize>,
+    /// Indices of the pieces that are turned over, rising: the surface has their wrong side where it has the right side
+    /// of the others.
+    pub turned: Vec<usize>,
     /// Where closures hold one piece over another: their rims are welded here, and lie over one another when worn.
     pub laps: Vec<Lap>,
     /// Pairs of particles of open fronts and slits, which are welded for the start alone.
@@ -117,15 +120,15 @@ impl ToGlue<'_> {
         let strips = strips(mesh, self.sheet);
         strips.iter().for_each(|p| is_out[*p as usize] = true);
         let sewn: Vec<[u32; 2]> = stitches(garment, mesh, exchange).chain(self.zips.iter().copied()).collect();
-        let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
+        let Sheets { left_out, turned } = layers::sheets(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
         left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
-        let (laps, pairs, is_whole) = self.flat_laps(&is_out, sewn, exchange);
+        let (laps, pairs, is_whole) = self.flat_laps(&is_out, &turned, sewn, exchange);
         cover(&mut is_out, &laps);
-        let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
+        let mut out = numbered(mesh, &is_out, &turned, &mut welded(mesh, &is_out, &pairs));
         (out.follows, out.beyond) = follows(mesh, self.sheet);
         let roll = |p: u32| Beyond { particle: p, at: self.sheet.flat[p as usize], layers: ROLL };
         out.beyond.extend(strips.into_iter().map(roll));
-        (out.laps, out.left_out, out.zips) = (laps, left_out, self.zips.to_vec());
+        (out.laps, out.left_out, out.turned, out.zips) = (laps, left_out, turned, self.zips.to_vec());
         (out, is_whole)
     }
 
@@ -135,6 +138,7 @@ impl ToGlue<'_> {
     fn flat_laps(
         &self,
         is_out: &[bool],
+        turned: &[usize],
         mut pairs: Vec<[u32; 2]>,
         exchange: Option<&Exchange>,
     ) -> (Vec<Lap>, Vec<[u32; 2]>, bool) {
@@ -153,7 +157,7 @@ impl ToGlue<'_> {
         let handles = |pairs: &[[u32; 2]], laps: &[Lap]| {
             let mut is_out = is_out.to_vec();
             cover(&mut is_out, laps);
-            handles(&numbered(mesh, &is_out, &mut welded(mesh, &is_out, pairs)))
+            handles(&numbered(mesh, &is_out, turned, &mut welded(mesh, &is_out, pairs)))
         };
         let mut least = handles(&pairs, &[]);
         let mut is_whole = true;
@@ -191,6 +195,15 @@ fn cover(is_out: &mut [bool], laps: &[Lap]) {
 }
 
 impl Glued {
+    /// The flat corners of a triangle, metres. They run as those of all others do: a piece that is turned over is seen
+    /// from its wrong side.
+    pub(super) fn flat(&self, mesh: &ClothMesh, triangle: usize) -> [Vec2; 3] {
+        let corners = self.corners[triangle];
+        let is_turned = mesh.piece_of(corners[0]).is_some_and(|piece| self.turned.contains(&piece));
+        let side = if is_turned { -1.0 } else { 1.0 };
+        corners.map(|p| Vec2::new(side * mesh.flat[p as usize].x, mesh.flat[p as usize].y))
+    }
+
     /// Number of connected parts.
     pub(super) fn parts(&self) -> u32 {
         self.part_of.iter().max().map_or(0, |last| last + 1)
@@ -252,15 +265,20 @@ fn strips(mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<u32> {
     mesh.pieces.iter().flat_map(of_piece).collect()
 }
 
-/// Numbers the nodes and the connected parts.
-fn numbered(mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Glued {
+/// Numbers the nodes and the connected parts. The triangles of pieces that are `turned` over run the other way round.
+fn numbered(mesh: &ClothMesh, is_out: &[bool], turned: &[usize], sets: &mut DisjointSets) -> Glued {
     let particle = |t: usize| mesh.triangles[t].map(|p| p as usize);
     let kept = |t: &usize| particle(*t).iter().all(|&p| !is_out[p]);
     let mut number = vec![NONE; mesh.flat.len()];
     let mut count = 0;
-    let (mut triangles, mut source) = (Vec::new(), Vec::new());
+    let is_turned = |t: usize| turned.iter().any(|piece| mesh.pieces[*piece].triangles.contains(&t));
+    let (mut triangles, mut corners) = (Vec::new(), Vec::new());
     for t in (0..mesh.triangles.len()).filter(kept) {
-        let corners = mesh.triangles[t].map(|p| {
+        let mut own = mesh.triangles[t];
+        if is_turned(t) {
+            own.swap(1, 2);
+        }
+        let nodes = own.map(|p| {
             let root = sets.root(p) as usize;
             if number[root] == NONE {
                 number[root] = count;
@@ -268,15 +286,15 @@ fn numbered(mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Glued
             }
             number[root]
         });
-        if corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0] {
-            triangles.push(corners);
-            source.push(t as u32);
+        if nodes[0] != nodes[1] && nodes[1] != nodes[2] && nodes[2] != nodes[0] {
+            triangles.push(nodes);
+            corners.push(own);
         }
     }
     let node = |p: u32| Some(number[sets.root(p) as usize]).filter(|&n| n != NONE && !is_out[p as usize]);
     let node_of = (0..mesh.flat.len() as u32).map(node).collect();
     let part_of = parts(&triangles, count as usize);
-    Glued { node_of, triangles, source, count: count as usize, part_of, ..Glued::default() }
+    Glued { node_of, triangles, corners, count: count as usize, part_of, ..Glued::default() }
 }
 
 /// The connected part of every node.

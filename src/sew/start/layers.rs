@@ -1,4 +1,4 @@
-//! Which pieces lie on others, and are no part of the surface that is glued.
+//! Which pieces lie on others, and are no part of the surface that is glued; and which are part of it turned over.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,21 +6,43 @@ use crate::geometry::DisjointSets;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, patches};
 
-/// The pieces that lie on others, rising. Where more than two sheets meet along a seam, or two that go the same way
+/// How the pieces of a garment make one surface.
+pub(super) struct Sheets {
+    /// Indices of the pieces that lie on others, rising, and are no part of it.
+    pub(super) left_out: Vec<usize>,
+    /// Indices of the pieces that are part of it turned over, rising.
+    pub(super) turned: Vec<usize>,
+}
+
+/// Finds the pieces that lie on others. Where more than two sheets meet along a seam, or two that go the same way
 /// from it, the one furthest from the shell lies on the others; of as far ones the smallest. Pieces that are sewn to
 /// it within its layer lie with it.
 ///
+/// A piece is turned over instead if then nothing is in the way any more and what it is sewn to stands up beside it:
+/// the front of a lapel, whose collar stands at the back.
+///
 /// `sets` are the particles as they are welded; `is_out` those that are not part of the surface.
-pub(super) fn left_out(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Vec<usize> {
+pub(super) fn sheets(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Sheets {
     let table = LayerGraph::new(garment, mesh, is_out);
     let root: Vec<u32> = (0..mesh.flat.len() as u32).map(|p| sets.root(p)).collect();
     let mut out: BTreeSet<usize> = patches(garment).into_iter().collect();
+    let mut turned = BTreeSet::new();
     loop {
         table.add_groups_without_hold(&mut out);
-        let Some(loser) = table.most_in_the_way(&root, &out) else { break };
-        out.extend(table.group(loser));
+        let Some(loser) = most(table.in_the_way(&root, &out, &turned)) else { break };
+        let group = table.group(loser);
+        match table.turned(&group, &root, &out, &turned) {
+            Some(more) => turned.extend(more),
+            None => out.extend(group),
+        }
     }
-    out.into_iter().collect()
+    turned.retain(|piece| !out.contains(piece));
+    Sheets { left_out: out.into_iter().collect(), turned: turned.into_iter().collect() }
+}
+
+/// The piece with most votes, of several the first.
+fn most(votes: BTreeMap<usize, usize>) -> Option<usize> {
+    votes.into_iter().max_by_key(|&(piece, sides)| (sides, std::cmp::Reverse(piece))).map(|(piece, _)| piece)
 }
 
 /// Pieces and what joins them.
@@ -95,8 +117,34 @@ impl<'a> LayerGraph<'a> {
         }
     }
 
-    /// The piece that is in the way of others along most sides of triangles.
-    fn most_in_the_way(&self, root: &[u32], out: &BTreeSet<usize>) -> Option<usize> {
+    /// The pieces of a group that are to be turned over, so that none of it is in the way any more and the others of it
+    /// are sewn to cloth beside it that is part of the surface. `None` if that cannot be.
+    fn turned(
+        &self,
+        group: &BTreeSet<usize>,
+        root: &[u32],
+        out: &BTreeSet<usize>,
+        before: &BTreeSet<usize>,
+    ) -> Option<BTreeSet<usize>> {
+        let mut more = BTreeSet::new();
+        loop {
+            let turned = before.union(&more).copied().collect();
+            let mut votes = self.in_the_way(root, out, &turned);
+            votes.retain(|piece, _| group.contains(piece));
+            let Some(loser) = most(votes) else { break };
+            if turned.contains(&loser) || !more.insert(loser) {
+                return None;
+            }
+        }
+        let stands = |pieces: [usize; 2]| {
+            let [own, beside] = [0, 1].map(|k| group.contains(&pieces[k]) && !more.contains(&pieces[k]));
+            own != beside && pieces.iter().all(|p| !out.contains(p)) && !pieces.iter().all(|p| group.contains(p))
+        };
+        self.joints().any(|(pieces, open)| open && stands(pieces)).then_some(more)
+    }
+
+    /// The pieces that are in the way of others, with the number of sides of triangles along which they are.
+    fn in_the_way(&self, root: &[u32], out: &BTreeSet<usize>, turned: &BTreeSet<usize>) -> BTreeMap<usize, usize> {
         let mut ways: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
         for (i, piece) in self.mesh.pieces.iter().enumerate().filter(|(i, _)| !out.contains(i)) {
             for t in &self.mesh.triangles[piece.triangles.clone()] {
@@ -105,7 +153,10 @@ impl<'a> LayerGraph<'a> {
                 }
                 let corners = t.map(|p| root[p as usize]);
                 for k in 0..3 {
-                    let way = [corners[k], corners[(k + 1) % 3]];
+                    let mut way = [corners[k], corners[(k + 1) % 3]];
+                    if turned.contains(&i) {
+                        way.reverse();
+                    }
                     if way[0] != way[1] {
                         ways.entry(way).or_default().push(i);
                     }
@@ -116,10 +167,10 @@ impl<'a> LayerGraph<'a> {
         for pieces in ways.into_values().filter(|pieces| pieces.len() > 1) {
             let distinct: BTreeSet<usize> = pieces.into_iter().collect();
             if distinct.len() > 1 {
-                *votes.entry(self.outermost(&distinct)?).or_default() += 1;
+                self.outermost(&distinct).into_iter().for_each(|piece| *votes.entry(piece).or_default() += 1);
             }
         }
-        votes.into_iter().max_by_key(|&(piece, sides)| (sides, std::cmp::Reverse(piece))).map(|(piece, _)| piece)
+        votes
     }
 
     /// Of these pieces the one furthest from the shell, of as far ones the smallest.

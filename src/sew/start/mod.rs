@@ -190,9 +190,8 @@ impl Dealt {
     /// than its rim, unless it is a bag as a cap is, whose rim is shorter than that of a disk of its area.
     fn without_sheets(mut self, mesh: &ClothMesh) -> Self {
         let mut area = vec![0.0; self.glued.parts() as usize];
-        for (t, source) in self.glued.triangles.iter().zip(&self.glued.source) {
-            let corners = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
-            area[self.glued.part_of[t[0] as usize] as usize] += star::flat_area(&corners);
+        for (k, t) in self.glued.triangles.iter().enumerate() {
+            area[self.glued.part_of[t[0] as usize] as usize] += star::flat_area(&self.glued.flat(mesh, k));
         }
         for part in 0..self.glued.parts() {
             let own: Vec<usize> = (0..self.openings.len()).filter(|&k| self.openings[k].part == part).collect();
@@ -239,7 +238,7 @@ impl Dealt {
     /// Every connected part inflated: from a star, or from its film where it is none.
     fn inflated(&self, mesh: &ClothMesh, film: OnFilm, axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let bending = surface::bending(&self.glued, mesh);
-        let piece = |source: &u32| mesh.piece_of(mesh.triangles[*source as usize][0]).unwrap_or(0) as u32;
+        let piece = |corners: &[u32; 3]| mesh.piece_of(corners[0]).unwrap_or(0) as u32;
         let of_ring = |of: &PartRing| film.worn[of.part as usize].held(of.ends, &of.ring);
         // A strap lies where the cloth round the arm lets it, which is not known: only sleeves are held.
         let is_held = |of: &&PartRing| !limb_of(of.ends).is_some_and(PartKind::is_arm) || of.ring.along > Some(FIRST);
@@ -252,10 +251,10 @@ impl Dealt {
             let part = self.part(mesh, &film, &rims, number);
             let posed = film.posed[number as usize];
             let star = part.star(posed.axes);
-            let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
+            let own = self.glued.triangles.iter().zip(&self.glued.corners).filter(|(t, _)| is_own(t[0]));
             let balloon = Balloon {
                 part: &part,
-                piece: own.map(|(_, source)| piece(source)).collect(),
+                piece: own.map(|(_, corners)| piece(corners)).collect(),
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
@@ -285,9 +284,8 @@ impl Dealt {
         let far = (0..self.glued.count).map(|n| nearest(n, &|_| true)).collect();
         let over_shoulder = |n: usize| nearest(n, &is_arm) + nearest(n, &|ends| ends.has(Ends::HEAD) && !is_arm(ends));
         let over_shoulder = (0..self.glued.count).map(over_shoulder).collect();
-        let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
-        let flat = |source: &u32| mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
-        let (triangles, flat) = own.map(|(t, source)| (*t, flat(source))).unzip();
+        let own = self.glued.triangles.iter().enumerate().filter(|(_, t)| is_own(t[0]));
+        let (triangles, flat) = own.map(|(k, t)| (*t, self.glued.flat(mesh, k))).unzip();
         let edges = film.edges.iter().filter(|l| is_own(l.ends[0])).copied().collect();
         GluedPart { holes, triangles, flat, edges, far, over_shoulder, mouths }
     }

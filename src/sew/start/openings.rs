@@ -34,7 +34,7 @@ pub struct GluedOpening {
 /// The openings of a glued surface, in the order of their first nodes.
 pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<GluedOpening> {
     let cloth = Distances::new(glued, mesh);
-    let particles = side_particles(glued, mesh);
+    let particles = side_particles(glued);
     let rims: Vec<Vec<u32>> = rims(glued).into_iter().filter(|rim| rim.len() >= LEAST).collect();
     let fields: Vec<Vec<f64>> = rims.iter().map(|rim| cloth.from(rim)).collect();
     let opening = |(i, rim): (usize, &Vec<u32>)| {
@@ -51,11 +51,12 @@ pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<GluedOpening> {
 }
 
 /// The particles of every directed side of a triangle.
-fn side_particles(glued: &Glued, mesh: &ClothMesh) -> HashMap<[u32; 2], [u32; 2]> {
-    let sides = glued.triangles.iter().zip(&glued.source).flat_map(|(nodes, &source)| {
-        let own = mesh.triangles[source as usize];
-        [[0, 1], [1, 2], [2, 0]].map(|[a, b]| ([nodes[a], nodes[b]], [own[a], own[b]]))
-    });
+fn side_particles(glued: &Glued) -> HashMap<[u32; 2], [u32; 2]> {
+    let sides = glued
+        .triangles
+        .iter()
+        .zip(&glued.corners)
+        .flat_map(|(nodes, own)| [[0, 1], [1, 2], [2, 0]].map(|[a, b]| ([nodes[a], nodes[b]], [own[a], own[b]])));
     sides.collect()
 }
 

@@ -66,8 +66,8 @@ struct Side {
 impl<'a> Rim<'a> {
     fn new(glued: &Glued, mesh: &'a ClothMesh, opening: &'a GluedOpening) -> Self {
         let mut angles = vec![0.0; glued.count];
-        for (nodes, source) in glued.triangles.iter().zip(&glued.source) {
-            let flat = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
+        for (k, nodes) in glued.triangles.iter().enumerate() {
+            let flat = glued.flat(mesh, k);
             for (k, n) in nodes.iter().enumerate() {
                 let way = |to: usize| -> Vec2 { flat[(k + to) % 3] - flat[k] };
                 angles[*n as usize] += way(1).angle(&way(2));

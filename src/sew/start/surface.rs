@@ -8,8 +8,8 @@ use crate::mesh::ClothMesh;
 /// The edges of the glued surface, as long as in the flat pieces: along a seam the mean of both sides.
 pub(super) fn edges(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
     let mut all: Vec<([u32; 2], f64)> = Vec::with_capacity(3 * glued.triangles.len());
-    for (nodes, source) in glued.triangles.iter().zip(&glued.source) {
-        let flat = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
+    for (t, nodes) in glued.triangles.iter().enumerate() {
+        let flat = glued.flat(mesh, t);
         for k in 0..3 {
             let [a, b] = [nodes[k], nodes[(k + 1) % 3]];
             all.push((sorted_pair([a, b]), (flat[(k + 1) % 3] - flat[k]).norm()));
@@ -25,7 +25,7 @@ pub(super) fn edges(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
 
 /// Nodes opposite to one another across an edge within a piece, as far apart as in the flat piece.
 pub(super) fn bending(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
-    let whole: Vec<[u32; 3]> = glued.source.iter().map(|t| mesh.triangles[*t as usize]).collect();
+    let whole = &glued.corners;
     let across = |edge: &MeshEdge| {
         let [Some(a), Some(b)] = edge.triangles else { return None };
         let third = |t: u32| (0..3).find(|k| !edge.ends.contains(&whole[t as usize][*k]));
@@ -34,5 +34,5 @@ pub(super) fn bending(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
         let ends = [glued.triangles[a as usize][i], glued.triangles[b as usize][j]];
         (ends[0] != ends[1]).then(|| Length { ends, rest: (flat(b, j) - flat(a, i)).norm() })
     };
-    Topology::new(&whole).edges.iter().filter_map(across).collect()
+    Topology::new(whole).edges.iter().filter_map(across).collect()
 }
