@@ -3,6 +3,8 @@
 //! A garment is inflated round these first; the cylinders then grow to the body's own size. A point in two of them
 //! (at a shoulder, in the crotch) is led out of one and then of the other.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use nalgebra::Rotation3;
 
 use crate::geometry::Vec3;
@@ -43,6 +45,40 @@ pub(super) struct Axis {
     landmarks: Vec<(String, Vec3)>,
     low: Vec3,
     high: Vec3,
+}
+
+/// Arms in sleeves hang at no less than this from straight down, radians: 30°, less than those of the mannequins. Of a
+/// shirt on a body with its arms beside its trunk 311 triangles started through the body, and 25 so.
+const STANCE: f64 = 30.0 * PI / 180.0;
+
+/// How the arms are raised while a garment is put on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RaisedArms {
+    /// The share of the way to straight sideways.
+    pub(super) share: f64,
+    /// Whether they are in sleeves, which go with them.
+    pub(super) in_sleeves: bool,
+}
+
+impl RaisedArms {
+    /// As they hang.
+    pub(super) const NONE: Self = Self { share: 0.0, in_sleeves: true };
+    /// Straight sideways, of a garment without sleeves.
+    pub(super) const SIDEWAYS: Self = Self { share: 1.0, in_sleeves: false };
+
+    /// The arms of these axes in sleeves: at [`STANCE`] where they hang closer to the trunk.
+    pub(super) fn in_sleeves(axes: &Axes) -> Self {
+        let angle = |axis: &Axis| (axis.station(axis.length()).center - axis.station(0.0).center).angle(&-Vec3::y());
+        let least = axes.axes.iter().filter(|axis| axis.kind.is_arm()).map(angle).fold(FRAC_PI_2, f64::min);
+        let share = if least < STANCE { (STANCE - least) / (FRAC_PI_2 - least) } else { 0.0 };
+        Self { share, in_sleeves: true }
+    }
+
+    /// The axes with the arms raised by this share of how they are raised.
+    pub(super) fn pose(&self, axes: &Axes, share: f64) -> Axes {
+        let share = self.share * share;
+        if self.share > 0.0 { axes.with_arms_raised(share) } else { axes.clone() }
+    }
 }
 
 /// A place on an axis.

@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use super::axes::Axes;
+use super::axes::{Axes, RaisedArms};
 use super::facing;
 use super::ribbon::Ribbons;
 use super::rings::{ABOVE_NECK, Neckline};
@@ -17,6 +17,7 @@ use super::star::GluedPart;
 use super::way_out::WayOut;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood};
 use crate::geometry::Vec3;
+use crate::mannequin::PartKind;
 
 /// Sweeps over all constraints per step. With half as many sleeves of a shirt stay 3 % too short.
 const SWEEPS: usize = 30;
@@ -82,15 +83,18 @@ pub(super) struct Held {
     pub(super) by: Vec<u32>,
     /// Metres.
     pub(super) middle: Vec3,
+    /// The limb that its middle goes with, and how far along that it is, metres.
+    pub(super) limb: Option<(PartKind, f64)>,
     /// A unit direction in which it may move freely.
     pub(super) along: Option<Vec3>,
 }
 
 impl Held {
-    /// How far its nodes are to move in one step.
-    fn back(&self, p: &[Vec3]) -> Vec3 {
+    /// How far its nodes are to move in one step round these axes.
+    fn back(&self, p: &[Vec3], axes: &Axes) -> Vec3 {
         let middle = self.by.iter().map(|n| p[*n as usize]).sum::<Vec3>() / self.by.len() as f64;
-        let way = self.middle - middle;
+        let on_limb = self.limb.and_then(|(kind, s)| axes.part(kind).map(|axis| axis.station(s).center));
+        let way = on_limb.unwrap_or(self.middle) - middle;
         self.along.map_or(way, |along| way - along * way.dot(&along)) * HOLD
     }
 }
@@ -108,8 +112,8 @@ pub(super) struct Balloon<'a> {
     pub(super) held: Vec<Held>,
     /// The ways of the body through it.
     pub(super) ways: &'a [WayOut],
-    /// Whether the arms are raised sideways while it is put on, and come down as the body grows.
-    pub(super) raises_arms: bool,
+    /// How the arms are raised while it is put on. They come down as the body grows.
+    pub(super) arms: RaisedArms,
     /// Whether it hangs from the shoulders: nothing of it is held where it settles, and its weight draws straps taut.
     pub(super) hangs: bool,
     /// Its neckline, if it has one on the shoulders.
@@ -149,15 +153,17 @@ impl Balloon<'_> {
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut motion = Motion::new(self, x);
         let held = |pressure: f64| Load { pressure, weight: Vec3::zeros(), is_held: true };
-        let pose = |raised: f64| if self.raises_arms { axes.with_arms_raised(raised) } else { axes.clone() };
-        let thin = pose(1.0);
+        let thin = self.arms.pose(axes, 1.0);
         for _ in 0..INFLATE {
             motion.step(held(1.0), &thin, |p| thin.outside(p, SMALLEST, GAP));
+        }
+        if self.arms.in_sleeves && self.arms.share > 0.0 {
+            motion.leave_ribbons();
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
-            let growing = pose(1.0 - share);
+            let growing = self.arms.pose(axes, 1.0 - share);
             motion.step(held(1.0 - share), &growing, |p| growing.outside(p, scale, GAP));
         }
         let hung = Load { pressure: 0.0, weight: -Vec3::y() * WEIGHT, is_held: false };
@@ -233,6 +239,14 @@ impl<'a> Motion<'a> {
         self.area.len()
     }
 
+    /// Goes on without the ribbons, which stay where they are: sleeves could not come down past those of the arms.
+    fn leave_ribbons(&mut self) {
+        let count = self.count();
+        self.x.truncate(count);
+        self.velocity.truncate(count);
+        self.detector = self.balloon.detector(&Ribbons::default(), count);
+    }
+
     /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`.
     fn step(&mut self, load: Load, axes: &Axes, outside: impl Fn(Vec3) -> Vec3) {
         let push = self.pushed();
@@ -248,7 +262,7 @@ impl<'a> Motion<'a> {
             layers.iter().for_each(|pair| keep_apart(&mut p, *pair, self.apart));
         }
         for held in self.balloon.held.iter().filter(|_| load.is_held) {
-            let back = held.back(&p);
+            let back = held.back(&p, axes);
             held.rim.iter().for_each(|n| p[*n as usize] += back);
         }
         if let Some(neckline) = &self.balloon.neckline {

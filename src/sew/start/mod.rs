@@ -67,7 +67,7 @@ use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord, TrunkLevel};
 use crate::sew::place::PlaceError;
-use axes::Axes;
+use axes::{Axes, RaisedArms};
 use balloon::{Balloon, Held, Length};
 use circles::Mouth;
 use harmonic::{Film, Limb, OpeningRing, angles};
@@ -144,15 +144,14 @@ struct OnFilm<'a> {
     rings: &'a [PartRing],
     limbs: &'a [Limb<'a>],
     /// For each connected part the body that it is put on.
-    posed: &'a [Posed<'a>],
+    posed: &'a [Posed],
     nodes: Vec<Vec3>,
 }
 
-/// The body that a part of a garment is put on: with its arms raised where it has no sleeves.
-#[derive(Clone, Copy)]
-struct Posed<'a> {
-    axes: &'a Axes,
-    raises_arms: bool,
+/// The body that a part of a garment is put on.
+struct Posed {
+    axes: Axes,
+    arms: RaisedArms,
 }
 
 /// A ring of a connected part.
@@ -223,10 +222,13 @@ impl Dealt {
     ) -> Option<T> {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
-        let raised = axes.with_arms_raised(1.0);
         let pose = |part: &WornOpenings| {
-            let raises_arms = !part.has_sleeves(&part.rings(axes));
-            Posed { axes: if raises_arms { &raised } else { axes }, raises_arms }
+            let arms = match part.has_sleeves(&part.rings(axes)) {
+                false => RaisedArms::SIDEWAYS,
+                true if part.hangs() => RaisedArms::in_sleeves(axes),
+                true => RaisedArms::NONE,
+            };
+            Posed { axes: arms.pose(axes, 1.0), arms }
         };
         let posed: Vec<Posed> = worn.iter().map(pose).collect();
         let (rings, limbs) = rings_and_limbs(&worn, &posed, &self.glued, &edges)?;
@@ -249,8 +251,8 @@ impl Dealt {
         for number in 0..film.worn.len() as u32 {
             let is_own = |n: u32| self.glued.part_of[n as usize] == number;
             let part = self.part(mesh, &film, &rims, number);
-            let posed = film.posed[number as usize];
-            let star = part.star(posed.axes);
+            let posed = &film.posed[number as usize];
+            let star = part.star(&posed.axes);
             let own = self.glued.triangles.iter().zip(&self.glued.corners).filter(|(t, _)| is_own(t[0]));
             let balloon = Balloon {
                 part: &part,
@@ -258,7 +260,7 @@ impl Dealt {
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
-                raises_arms: posed.raises_arms,
+                arms: posed.arms,
                 hangs: film.worn[number as usize].hangs(),
                 neckline: film.worn[number as usize].neckline(),
             };
@@ -408,7 +410,7 @@ impl Dealt {
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
     worn: &'a [WornOpenings],
-    posed: &[Posed<'a>],
+    posed: &'a [Posed],
     glued: &Glued,
     edges: &[Length],
 ) -> Option<(Vec<PartRing>, Vec<Limb<'a>>)> {

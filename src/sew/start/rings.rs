@@ -141,9 +141,12 @@ impl WornOpenings<'_> {
         match top.zip(self.neckline()) {
             Some((top, Neckline { shoulders, .. })) => {
                 let middle = ring.center + Vec3::y() * self.below_shoulders(top);
-                Held { rim, by: shoulders.to_vec(), middle, along: None }
+                Held { rim, by: shoulders.to_vec(), middle, limb: None, along: None }
             }
-            None => Held { by: rim.clone(), rim, middle: ring.center, along: None },
+            None => {
+                let limb = limb_of(ends).zip(ring.along);
+                Held { by: rim.clone(), rim, middle: ring.center, limb, along: None }
+            }
         }
     }
 

@@ -28,7 +28,7 @@ pub(super) fn sections(ring: &OpeningRing, limb: &Limb) -> Vec<Held> {
         .take_while(|(_, nodes)| is_round(nodes))
         .map(|(k, rim)| {
             let station = limb.axis.station(along - (k as f64 + 0.5) * STEP);
-            Held { by: rim.clone(), rim, middle: station.center, along: Some(station.axis) }
+            Held { by: rim.clone(), rim, middle: station.center, limb: None, along: Some(station.axis) }
         })
         .collect()
 }
