@@ -294,6 +294,12 @@ pub(super) fn sidedness(stretches: &[RimStretch]) -> f64 {
     shared(stretches, |s| s.side)
 }
 
+/// How much of an opening is on the left rather than on the right as its pieces are drawn, from 1 to −1: on those that
+/// are said to be at the front or the back. Seen from outside the wearer's left is to the right on a front.
+pub(super) fn drawn_sidedness(garment: &Garment, stretches: &[RimStretch]) -> f64 {
+    shared(stretches, |s| facing(garment, s.piece) * s.middle.x.signum())
+}
+
 /// The share of an opening on pieces that fail a test.
 pub(super) fn share(stretches: &[RimStretch], fails: impl Fn(usize) -> bool) -> f64 {
     shared(stretches, |s| f64::from(fails(s.piece)))

@@ -6,6 +6,7 @@
 use super::deal::Wearing;
 use super::ends::Ends;
 use super::marks;
+use crate::geometry::range_of;
 use crate::pattern::PlaceMeaning;
 
 /// Left and right are told by pairs and by `place`, and else by depth: a neck is lower at the front, a waist is nearer
@@ -24,7 +25,9 @@ pub(super) fn settle(wearing: &Wearing, own: &[usize], ends: &mut [Ends], front:
     let Some(left_of) = left_field(wearing, own, ends) else { return };
     for &i in own {
         if ends[i].has(Ends::HEAD) || ends[i].has(Ends::LEGS) {
-            let [fore, _] = middles(wearing, i, ends[i], &left_of);
+            let by_arm = only_arm(own, ends).filter(|_| ends[i].has(Ends::HEAD));
+            let by_arm = by_arm.map(|arm| arm_field(wearing, i, arm, ends[arm]));
+            let [fore, _] = middles(wearing, i, ends[i], by_arm.as_ref().unwrap_or(&left_of));
             front[i] = fore;
         }
     }
@@ -38,6 +41,10 @@ fn evidence(wearing: &Wearing, own: &[usize], ends: &[Ends]) -> f64 {
         let way = f64::from(ends[i].touches(left)) - f64::from(ends[i].touches(right));
         sum += SAID * way * marks::sidedness(&wearing.stretches[i]);
     }
+    if let Some(arm) = only_arm(own, ends) {
+        let way = if ends[arm] == Ends::LEFT_ARM { SAID } else { -SAID };
+        return sum + way * marks::drawn_sidedness(wearing.garment, &wearing.stretches[arm]);
+    }
     let Some(left_of) = left_field(wearing, own, ends) else { return sum };
     for &i in own.iter().filter(|&&i| ends[i].has(Ends::HEAD)) {
         let [fore, back] = middles(wearing, i, ends[i], &left_of);
@@ -45,6 +52,24 @@ fn evidence(wearing: &Wearing, own: &[usize], ends: &[Ends]) -> f64 {
         sum += deeper(wearing, own, ends, i, [fore, back]);
     }
     sum
+}
+
+/// The opening of one arm, of a garment over one shoulder.
+fn only_arm(own: &[usize], ends: &[Ends]) -> Option<usize> {
+    let with = |arm: Ends| own.iter().copied().find(|&i| ends[i] == arm);
+    match [Ends::LEFT_ARM, Ends::RIGHT_ARM].map(with) {
+        [Some(arm), None] | [None, Some(arm)] => Some(arm),
+        _ => None,
+    }
+}
+
+/// For every node how much nearer it is to the only arm's side, seen from the middle of opening `i`, metres; below 0 on
+/// the right.
+fn arm_field(wearing: &Wearing, i: usize, arm: usize, side: Ends) -> Vec<f64> {
+    let far = &wearing.far[arm];
+    let [low, high] = range_of(wearing.openings[i].rim.iter().map(|n| far[*n as usize]));
+    let side = if side == Ends::LEFT_ARM { 1.0 } else { -1.0 };
+    far.iter().map(|far| side * (0.5 * (low + high) - far)).collect()
 }
 
 /// Whether the front middle of opening `i` is nearer to the hem or the legs than its back middle.
