@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str]); 30] = [
 
 /// Files and folders that use one another in a circle, each with the folder that they are in. They are still to be
 /// untangled: none may be added, and one that is out of its circle is struck out.
-const CIRCLES: [(&str, &[&str]); 14] = [
+const CIRCLES: [(&str, &[&str]); 13] = [
     ("alter", &["even", "reshape"]),
     ("digitize", &["darts", "edges", "file", "folds", "materials", "notches", "suggest"]),
     (
@@ -163,23 +163,6 @@ const CIRCLES: [(&str, &[&str]); 14] = [
         ],
     ),
     ("pipeline/surface", &["cuts", "darts", "edges", "even", "parts", "report", "sheet"]),
-    (
-        "report",
-        &[
-            "bunched",
-            "closures",
-            "crossings",
-            "fit",
-            "laps",
-            "measure",
-            "misworn",
-            "schema",
-            "statistics",
-            "strain",
-            "stretched",
-            "worn",
-        ],
-    ),
     (
         "sew/start",
         &[
