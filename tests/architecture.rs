@@ -115,26 +115,9 @@ const CRATES: [(&str, &[&str]); 30] = [
 
 /// Files and folders that use one another in a circle, each with the folder that they are in. They are still to be
 /// untangled: none may be added, and one that is out of its circle is struck out.
-const CIRCLES: [(&str, &[&str]); 13] = [
+const CIRCLES: [(&str, &[&str]); 12] = [
     ("alter", &["even", "reshape"]),
     ("digitize", &["darts", "edges", "file", "folds", "materials", "notches", "suggest"]),
-    (
-        "dynamics",
-        &[
-            "contact_law",
-            "force",
-            "foreseen",
-            "links",
-            "model",
-            "part",
-            "proximity",
-            "shear",
-            "step",
-            "thread",
-            "touching",
-            "world",
-        ],
-    ),
     ("fabric", &["library", "measure", "resolve", "sheet"]),
     ("flatten", &["relax", "zone"]),
     ("io", &["dxf_block", "dxf_library"]),

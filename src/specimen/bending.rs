@@ -219,7 +219,7 @@ pub(super) fn roll(sample: &Sample) -> Result<Outcome, SpecimenError> {
             let turn = p.dot(&round) / RADIUS;
             Vec3::new(RADIUS * turn.sin(), RADIUS * turn.cos(), p.dot(&along))
         });
-        let rigidity = 2.0 * cloth.bending.energy(&x) * (RADIUS / SIDE).powi(2);
+        let rigidity = 2.0 * cloth.elastic.bending.energy(&x) * (RADIUS / SIDE).powi(2);
         let known = (root_warp * angle.cos().powi(2) + root_weft * angle.sin().powi(2)).powi(2);
         BenchFigure {
             test: "roll",
