@@ -14,17 +14,18 @@ impl World<'_> {
         cloth.edges.par_iter().any(cuts) || cloth.triangles.par_iter().any(pokes)
     }
 
-    /// Number of edges and triangles that the body cuts, and per node the mean direction off the body of those at it.
-    pub fn ways_off(&self) -> (usize, Vec<Vec3>) {
+    /// Number of edges and triangles that the body cuts with the nodes at `x`, and per node the mean direction off the
+    /// body of those at it.
+    pub fn ways_off(&self, x: &[Vec3]) -> (usize, Vec<Vec3>) {
         let (body, cloth) = (self.proximity.body, &self.cloth);
-        let at = |n: u32| self.x[n as usize];
+        let at = |n: u32| x[n as usize];
         let cut = |e: &[u32; 2]| body.way_off(at(e[0]), at(e[1]));
         let poked = |t: &[u32; 3]| body.poking(t.map(at));
         let of_edges: Vec<Option<Vec3>> = cloth.edges.par_iter().map(cut).collect();
         let of_triangles: Vec<Option<Vec3>> = cloth.triangles.par_iter().map(poked).collect();
         let edges = cloth.edges.iter().map(<[u32; 2]>::as_slice).zip(of_edges);
         let cuts = edges.chain(cloth.triangles.iter().map(<[u32; 3]>::as_slice).zip(of_triangles));
-        let (mut count, mut sum) = (0, vec![(Vec3::zeros(), 0.0); self.x.len()]);
+        let (mut count, mut sum) = (0, vec![(Vec3::zeros(), 0.0); x.len()]);
         for (nodes, way) in cuts.filter_map(|(nodes, way)| Some((nodes, way?))) {
             count += 1;
             for &n in nodes {

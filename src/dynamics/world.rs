@@ -43,7 +43,7 @@ pub struct World<'a> {
     /// The cloth.
     pub cloth: Cloth,
     /// Node positions.
-    pub x: Vec<Vec3>,
+    pub(super) x: Vec<Vec3>,
     /// Node velocities, which inertia keeps, m/s.
     pub velocity: Vec<Vec3>,
     /// Friction of the contacts. None while sewing.
@@ -227,18 +227,39 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
-    /// Tells the world that [`World::x`] was changed from outside. The change gives no velocity, drags no contact
-    /// along, and turns no fold by more than half a turn.
+    /// Node positions.
+    pub fn x(&self) -> &[Vec3] {
+        &self.x
+    }
+
+    /// The node positions, when nothing moves any more.
+    pub fn into_x(self) -> Vec<Vec3> {
+        self.x
+    }
+
+    /// Puts the nodes at `x`, one position per node. That gives no velocity, drags no contact along, and turns no fold
+    /// by more than half a turn.
     ///
     /// # Errors
     /// As [`Stepper::new`].
-    pub fn displaced(&mut self) -> Result<(), StepError> {
+    pub fn displace(&mut self, x: Vec<Vec3>) -> Result<(), StepError> {
+        self.x = x;
         self.velocity.fill(Vec3::zeros());
         self.cloth.elastic.follow(&self.x, Loads::default());
         if let Some(friction) = &mut self.friction {
             friction.displaced(&self.x);
         }
         self.detect()
+    }
+
+    /// Moves the `nodes` by `way`, metres, as a hand that holds them: contacts follow, and friction drags.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn shift(&mut self, nodes: &[usize], way: Vec3) -> Result<(), StepError> {
+        let mut target = self.x.clone();
+        nodes.iter().for_each(|&node| target[node] += way);
+        self.move_to(target, FALL, false, Loads::default()).map(|_| ())
     }
 
     /// Switches friction on, with at least this tangential `stiffness` per contact, N/m.
@@ -325,6 +346,11 @@ impl<'a> World<'a> {
     /// Places where the cloth passes through itself.
     pub fn tangles(&mut self) -> Vec<Tangle> {
         self.proximity.tangles(&self.x)
+    }
+
+    /// Places where the cloth would pass through itself with its nodes at `x`.
+    pub fn tangles_at(&mut self, x: &[Vec3]) -> Vec<Tangle> {
+        self.proximity.tangles(x)
     }
 
     /// Sets the nodes that may pass through one another. An empty list means none.

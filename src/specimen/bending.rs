@@ -65,7 +65,7 @@ impl ClampedStrip {
         let mut world = self.sheet.hang(cloth, x, &bench)?;
         settle(&mut world, self.spacing, STILL * self.length)?;
         let end = self.sheet.particles(|p| p.y > self.length + self.spacing);
-        Ok(end.iter().map(|&n| world.x[n as usize]).sum::<Vec3>() / end.len() as f64)
+        Ok(end.iter().map(|&n| world.x()[n as usize]).sum::<Vec3>() / end.len() as f64)
     }
 }
 
