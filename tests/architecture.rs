@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str]); 30] = [
 
 /// Files and folders that use one another in a circle, each with the folder that they are in. They are still to be
 /// untangled: none may be added, and one that is out of its circle is struck out.
-const CIRCLES: [(&str, &[&str]); 11] = [
+const CIRCLES: [(&str, &[&str]); 10] = [
     ("alter", &["even", "reshape"]),
     ("digitize", &["darts", "edges", "file", "folds", "materials", "notches", "suggest"]),
     ("fabric", &["library", "measure", "resolve", "sheet"]),
@@ -124,27 +124,6 @@ const CIRCLES: [(&str, &[&str]); 11] = [
     ("io/garmentcode", &["drawing", "outward", "short", "spec"]),
     ("io/pdf_write", &["cover", "pages"]),
     ("pattern", &["chain", "dart", "draft", "line", "outline", "pleat", "seam"]),
-    (
-        "pipeline",
-        &[
-            "across",
-            "caught",
-            "draft",
-            "earlier",
-            "error",
-            "fit",
-            "glimpse",
-            "job",
-            "levels",
-            "material",
-            "problems",
-            "results",
-            "run",
-            "surface",
-            "tight",
-            "too_small",
-        ],
-    ),
     ("pipeline/surface", &["cuts", "darts", "edges", "even", "parts", "report", "sheet"]),
     (
         "sew/start",
