@@ -5,6 +5,10 @@
 //! nodes side by side. Energies of few elements *scatter*: one thread goes through them afterwards and adds to their
 //! nodes. What two energies exert is a pair, so that one pass over the nodes serves all of them. Every call is resolved
 //! when the program is built.
+//!
+//! Contact and friction are no [`Energy`]: which contacts push, stick or slide is found in the rounds of a step, and
+//! friction has an energy only at given normal forces. The stiffness of one such choice is a [`Stiffness`] and has a
+//! [`Bound`] like any other ([`super::touching`]).
 
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{BlockColumn, SymmetricMatrix};
