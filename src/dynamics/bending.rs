@@ -67,7 +67,7 @@ impl Bound for EdgeBound {
 }
 
 /// Q times positions or displacements.
-struct Product<'a> {
+struct BendingProduct<'a> {
     bending: &'a Bending,
     x: &'a [Vec3],
     /// 1, or −1 for forces.
@@ -138,7 +138,7 @@ impl Bending {
     }
 }
 
-impl Exerted for Product<'_> {
+impl Exerted for BendingProduct<'_> {
     fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
         sum + self.bending.gradient(self.x, node) * self.sign
     }
@@ -146,7 +146,7 @@ impl Exerted for Product<'_> {
 
 impl Stiffness for Bending {
     fn times<'a>(&'a self, p: &'a [Vec3]) -> impl Exerted + 'a {
-        Product { bending: self, x: p, sign: 1.0 }
+        BendingProduct { bending: self, x: p, sign: 1.0 }
     }
 }
 
@@ -156,7 +156,7 @@ impl Energy for Bending {
     }
 
     fn forces<'a>(&'a self, x: &'a [Vec3]) -> impl Exerted + 'a {
-        Product { bending: self, x, sign: -1.0 }
+        BendingProduct { bending: self, x, sign: -1.0 }
     }
 
     fn stiffness<'a>(&'a self, _x: &'a [Vec3]) -> impl Stiffness + 'a {

@@ -236,9 +236,9 @@ impl<'a> Contacts<'a> {
 }
 
 /// Forces of contacts on every node.
-struct Pushes(Vec<Vec3>);
+struct ContactForces(Vec<Vec3>);
 
-impl Exerted for Pushes {
+impl Exerted for ContactForces {
     fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
         sum + self.0[node]
     }
@@ -254,7 +254,7 @@ impl Energy for Contacts<'_> {
         for (contact, grip) in self.forces.contacts.iter().zip(grips(self.cloth, &self.forces, &self.loads, x)) {
             push(&mut out, contact, self.forces.load(self.cloth, x, contact), grip);
         }
-        Pushes(out)
+        ContactForces(out)
     }
 
     fn stiffness<'a>(&'a self, _x: &'a [Vec3]) -> impl Stiffness + 'a {

@@ -36,51 +36,51 @@ pub struct Membrane {
 }
 
 /// Forces of every element.
-struct Forces<'a> {
+struct MembraneForces<'a> {
     links: &'a Links,
     forces: Vec<[Vec3; 3]>,
 }
 
 /// True stiffness: a symmetric matrix of 3×3 blocks in the places of [`Links`], N/m.
-struct Matrix<'a> {
+struct MembraneStiffness<'a> {
     links: &'a Links,
     blocks: Vec<Mat3>,
 }
 
-/// A [`Matrix`] times displacements.
-struct Product<'a> {
-    matrix: &'a Matrix<'a>,
+/// A [`MembraneStiffness`] times displacements.
+struct MembraneResistance<'a> {
+    matrix: &'a MembraneStiffness<'a>,
     p: &'a [Vec3],
 }
 
 /// Bound of the stiffness of every element.
-struct Bounds<'a> {
+struct MembraneBound<'a> {
     membrane: &'a Membrane,
     bounds: Vec<AnyBound>,
 }
 
-impl Exerted for Forces<'_> {
+impl Exerted for MembraneForces<'_> {
     fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
         self.links.at(node).iter().fold(sum, |sum, l| sum + self.forces[l.element as usize][l.corner as usize])
     }
 }
 
-impl Stiffness for Matrix<'_> {
+impl Stiffness for MembraneStiffness<'_> {
     fn times<'a>(&'a self, p: &'a [Vec3]) -> impl Exerted + 'a {
-        Product { matrix: self, p }
+        MembraneResistance { matrix: self, p }
     }
 }
 
-impl Exerted for Product<'_> {
+impl Exerted for MembraneResistance<'_> {
     fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
-        let Matrix { links, blocks } = self.matrix;
+        let MembraneStiffness { links, blocks } = self.matrix;
         let row = links.rows()[node] as usize..links.rows()[node + 1] as usize;
         let row = links.columns()[row.clone()].iter().zip(&blocks[row]);
         sum + row.fold(Vec3::zeros(), |sum, (&column, block)| sum + block * self.p[column as usize])
     }
 }
 
-impl Bound for Bounds<'_> {
+impl Bound for MembraneBound<'_> {
     fn gather(&self, node: usize, column: &mut BlockColumn<f32>) {
         for link in self.membrane.links.at(node) {
             let (number, corner) = (link.element as usize, link.corner as usize);
@@ -125,7 +125,7 @@ impl Energy for Membrane {
 
     fn forces<'a>(&'a self, x: &'a [Vec3]) -> impl Exerted + 'a {
         let of_element = |number| self.elements.get(number).forces(&self.laws, x);
-        Forces { links: &self.links, forces: parallel::map(self.elements.len(), MEDIUM, of_element) }
+        MembraneForces { links: &self.links, forces: parallel::map(self.elements.len(), MEDIUM, of_element) }
     }
 
     fn stiffness<'a>(&'a self, x: &'a [Vec3]) -> impl Stiffness + 'a {
@@ -138,12 +138,12 @@ impl Energy for Membrane {
                 self.elements.get(number).add_row(&tangents[number], link.corner as usize, add);
             }
         });
-        Matrix { links: &self.links, blocks }
+        MembraneStiffness { links: &self.links, blocks }
     }
 
     fn bound<'a>(&'a self, x: &'a [Vec3]) -> impl Bound + 'a {
         let bounds = parallel::map(self.elements.len(), MEDIUM, |number| self.tangent(number, x).bound());
-        Bounds { membrane: self, bounds }
+        MembraneBound { membrane: self, bounds }
     }
 
     fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {

@@ -88,7 +88,7 @@ pub struct Cloth {
 
 /// Elements of a membrane that is being made, and their laws.
 #[derive(Default)]
-struct Parts {
+struct MembraneParts {
     elements: Elements,
     laws: Vec<StretchLaw>,
 }
@@ -135,7 +135,7 @@ impl Cloth {
             ..Self::default()
         };
         out.weigh(mesh, fabrics);
-        let mut parts = Parts::default();
+        let mut parts = MembraneParts::default();
         out.add_springs(&mut parts, cut, model);
         if model == SpringModel::Measured {
             out.add_tacks(&mut parts, mesh, garment);
@@ -193,9 +193,9 @@ impl Cloth {
 
     /// Adds springs, threads and shear. The width of a spring is that of the cloth beside it that has no threads of its
     /// own. On the grid, threads have springs and diagonals have none. Soft cloth has springs only.
-    fn add_springs(&self, parts: &mut Parts, cut: &Cut, model: SpringModel) {
+    fn add_springs(&self, parts: &mut MembraneParts, cut: &Cut, model: SpringModel) {
         let Cut { garment, mesh, fabrics } = *cut;
-        let Parts { elements, laws } = parts;
+        let MembraneParts { elements, laws } = parts;
         let seam_rest = SeamRest::new(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
         let laws_of = make_laws(laws, fabrics, model);
@@ -249,7 +249,7 @@ impl Cloth {
     }
 
     /// A short strong spring for every tack of the closures, between the particles nearest to its ends.
-    fn add_tacks(&self, parts: &mut Parts, mesh: &ClothMesh, garment: &Garment) {
+    fn add_tacks(&self, parts: &mut MembraneParts, mesh: &ClothMesh, garment: &Garment) {
         let law = parts.laws.len() as u32;
         let tacks: Vec<Spring> = tacked(mesh, garment)
             .map(|ends| ends.map(|particle| self.node_of[particle as usize]))

@@ -18,20 +18,20 @@ impl<E: Clone> Default for Scattered<'_, E> {
 }
 
 /// Forces of elements at `x`.
-struct Forces<'a, E> {
+struct ScatteredForces<'a, E> {
     elements: &'a [E],
     x: &'a [Vec3],
 }
 
 /// Stiffness of elements at one position.
-struct Tangents<'a, E: Element<4>> {
+struct ScatteredStiffness<'a, E: Element<4>> {
     elements: &'a [E],
     tangents: Vec<E::Tangent>,
 }
 
 /// Resistance of a stiffness to displacements.
-struct Resistance<'a, E: Element<4>> {
-    of: &'a Tangents<'a, E>,
+struct ScatteredResistance<'a, E: Element<4>> {
+    of: &'a ScatteredStiffness<'a, E>,
     p: &'a [Vec3],
 }
 
@@ -40,26 +40,26 @@ fn add(out: &mut [Vec3], nodes: &[u32], exerted: [Vec3; 4]) {
     nodes.iter().zip(exerted).for_each(|(&node, f)| out[node as usize] += f);
 }
 
-impl<E: Element<4>> Exerted for Forces<'_, E> {
+impl<E: Element<4>> Exerted for ScatteredForces<'_, E> {
     fn scatter(&self, out: &mut [Vec3]) {
         self.elements.iter().for_each(|e| add(out, e.nodes(), e.forces(&[], self.x)));
     }
 }
 
-impl<E: Element<4>> Stiffness for Tangents<'_, E> {
+impl<E: Element<4>> Stiffness for ScatteredStiffness<'_, E> {
     fn times<'a>(&'a self, p: &'a [Vec3]) -> impl Exerted + 'a {
-        Resistance { of: self, p }
+        ScatteredResistance { of: self, p }
     }
 }
 
-impl<E: Element<4>> Exerted for Resistance<'_, E> {
+impl<E: Element<4>> Exerted for ScatteredResistance<'_, E> {
     fn scatter(&self, out: &mut [Vec3]) {
-        let Tangents { elements, tangents } = self.of;
+        let ScatteredStiffness { elements, tangents } = self.of;
         elements.iter().zip(tangents).for_each(|(e, tangent)| add(out, e.nodes(), e.resist(tangent, self.p)));
     }
 }
 
-impl<E: Element<4>> Bound for Tangents<'_, E> {
+impl<E: Element<4>> Bound for ScatteredStiffness<'_, E> {
     /// Blocks of held nodes are not in the pattern and are left out.
     fn scatter(&self, matrix: &mut SymmetricMatrix<f32>) {
         for (element, tangent) in self.elements.iter().zip(&self.tangents) {
@@ -76,8 +76,8 @@ impl<E: Element<4>> Bound for Tangents<'_, E> {
 }
 
 impl<E: Element<4>> Scattered<'_, E> {
-    fn tangents(&self, x: &[Vec3]) -> Tangents<'_, E> {
-        Tangents { elements: &self.0, tangents: self.0.iter().map(|e| e.tangent(&[], x, None)).collect() }
+    fn tangents(&self, x: &[Vec3]) -> ScatteredStiffness<'_, E> {
+        ScatteredStiffness { elements: &self.0, tangents: self.0.iter().map(|e| e.tangent(&[], x, None)).collect() }
     }
 }
 
@@ -87,7 +87,7 @@ impl<E: Element<4>> Energy for Scattered<'_, E> {
     }
 
     fn forces<'a>(&'a self, x: &'a [Vec3]) -> impl Exerted + 'a {
-        Forces { elements: &self.0, x }
+        ScatteredForces { elements: &self.0, x }
     }
 
     fn stiffness<'a>(&'a self, x: &'a [Vec3]) -> impl Stiffness + 'a {

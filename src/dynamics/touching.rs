@@ -141,12 +141,12 @@ impl Bound for PressedBound<'_> {
 }
 
 /// Resistance of every contact to displacements, N.
-struct Resistance<'a> {
+struct ContactResistance<'a> {
     touching: &'a Touching,
     of_contacts: Vec<Vec3>,
 }
 
-impl Exerted for Resistance<'_> {
+impl Exerted for ContactResistance<'_> {
     fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
         let shares = self.touching.at(node).iter().map(|(k, w)| self.of_contacts[*k as usize] * *w);
         sum + shares.fold(Vec3::zeros(), |sum, share| sum + share)
@@ -159,7 +159,7 @@ impl Stiffness for Touching {
             let Touch { parts, stiffness } = &self.touches[k];
             stiffness * parts.iter().fold(Vec3::zeros(), |way, (n, w)| way + p[*n as usize] * *w)
         });
-        Resistance { touching: self, of_contacts }
+        ContactResistance { touching: self, of_contacts }
     }
 }
 
