@@ -49,7 +49,7 @@ fn hung<'a>(job: &'a Job, sewn: &Sewn) -> Result<World<'a>, StepError> {
 
 /// The system of a step: a mass at every node and a spring of one newton per metre along every edge.
 fn factor(criterion: &mut Criterion, world: &World) -> Result<(), Box<dyn Error>> {
-    let (edges, n) = (&world.cloth.edges, world.x.len());
+    let (edges, n) = (&world.cloth.edges, world.x().len());
     let pattern = Arc::new(SymmetricPattern::blocks(n, edges.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
     let mut matrix = SymmetricMatrix::<f64>::zeros(pattern.clone());
     let mut add = |a: u32, b: u32, value: f64| {
@@ -77,7 +77,7 @@ fn factor(criterion: &mut Criterion, world: &World) -> Result<(), Box<dyn Error>
 }
 
 fn detection(criterion: &mut Criterion, job: &Job, world: &World) {
-    let (x, cloth) = (&world.x, &world.cloth);
+    let (x, cloth) = (world.x(), &world.cloth);
     let mut group = criterion.benchmark_group("contact");
     group.bench_function("body, vertices", |b| {
         b.iter(|| x.iter().filter(|p| job.collider.nearest(**p, BODY_REACH).is_some()).count());
@@ -102,7 +102,7 @@ fn detection(criterion: &mut Criterion, job: &Job, world: &World) {
 }
 
 fn steps(criterion: &mut Criterion, job: &Job, sewn: &Sewn) {
-    let still = |world: &World| -> Vec<Vec3> { world.x.clone() };
+    let still = |world: &World| -> Vec<Vec3> { world.x().to_vec() };
     let mut group = criterion.benchmark_group("step");
     group.bench_function("prepare", |b| b.iter(|| hung(job, black_box(sewn)).is_ok()));
     group.bench_function("falling", |b| {

@@ -69,7 +69,7 @@ fn a_quadratic_surface_is_exact_in_any_piece() {
             };
             let x: Vec<Vec3> = job.mesh.flat.iter().map(|p| Vec3::new(p.x, p.y, height(p))).collect();
             let known = 0.5 * area(&job) * (WARP * uu * uu + WEFT * vv * vv + 2.0 * (WARP * WEFT).sqrt() * uv * uv);
-            let found = cloth.bending.energy(&x);
+            let found = cloth.elastic.bending.energy(&x);
             assert!((found / known - 1.0).abs() < 1e-3, "{spacing} mm, {uu} {vv} {uv}: {found} against {known}");
         }
     }
@@ -83,8 +83,9 @@ fn a_flat_piece_in_any_position_costs_nothing() {
         let flat = |p: &Vec2| Vec3::new(0.6 * p.x, p.y, 0.8 * p.x + 0.3);
         // Drawn out too: bending does not ask how long threads are.
         let drawn = |p: &Vec2| Vec3::new(1.1 * p.x + 0.2 * p.y, 0.9 * p.y, 0.5 * p.x);
-        let energy =
-            |place: &dyn Fn(&Vec2) -> Vec3| cloth.bending.energy(&job.mesh.flat.iter().map(place).collect::<Vec<_>>());
+        let energy = |place: &dyn Fn(&Vec2) -> Vec3| {
+            cloth.elastic.bending.energy(&job.mesh.flat.iter().map(place).collect::<Vec<_>>())
+        };
         // Rolled to a radius of 0.1 m it holds a tenth of a millijoule.
         assert!(energy(&flat).abs() < 1e-15 && energy(&drawn).abs() < 1e-15);
     }
@@ -100,17 +101,16 @@ fn no_ripple_is_free_and_the_edge_bound_is_above_all() {
         let mut x = vec![Vec3::zeros(); n];
         x[i].z = 1e-3;
         // As a cell of the softer way would cost at least.
-        assert!(cloth.bending.energy(&x) > 0.1 * WEFT * (1e-3f64 / 0.011).powi(2), "node {i}");
+        assert!(cloth.elastic.bending.energy(&x) > 0.1 * WEFT * (1e-3f64 / 0.011).powi(2), "node {i}");
     }
     let noise = noise(3 * n);
     let x: Vec<Vec3> = noise.chunks_exact(3).map(|d| Vec3::new(d[0], d[1], d[2])).collect();
     let bound: f64 = cloth
         .edges
         .iter()
-        .zip(&cloth.bending_bound)
-        .map(|(e, w)| w * (x[e[0] as usize] - x[e[1] as usize]).norm_squared())
+        .map(|e| cloth.elastic.bending.edge_bound(*e) * (x[e[0] as usize] - x[e[1] as usize]).norm_squared())
         .sum();
-    let energy = 2.0 * cloth.bending.energy(&x);
+    let energy = 2.0 * cloth.elastic.bending.energy(&x);
     assert!(energy <= bound && energy > 0.02 * bound, "{energy} against {bound}");
 }
 
@@ -143,11 +143,11 @@ fn a_seam_bends_as_the_cloth_beside_it() {
     }
     // Both halves up to their rims, and a hinge as wide as a cell.
     let known = 0.5 * WEFT * (0.02 + 0.1 * 0.01) / (radius * radius);
-    let rolled = sewn.bending.energy(&x);
+    let rolled = sewn.elastic.bending.energy(&x);
     assert!((rolled / known - 1.0).abs() < 0.01, "{rolled} against {known}");
     // Folded at a right angle only the hinge bends: its sides lean away from the edge at right angles.
     let hinge = 0.5 * WEFT * 0.1 * 2.0 / 0.01;
-    let found = sewn.bending.energy(&folded);
+    let found = sewn.elastic.bending.energy(&folded);
     assert!((found / hinge - 1.0).abs() < 0.01, "{found} against {hinge}");
 }
 
@@ -174,7 +174,7 @@ fn a_crease_parts_the_cloth() {
     let job = creased(90.0);
     let cloth = unsewn(&job, SpringModel::Raw);
     let x: Vec<Vec3> = job.mesh.flat.iter().map(turned_up).collect();
-    assert!(cloth.bending.energy(&x).abs() < 1e-15);
+    assert!(cloth.elastic.bending.energy(&x).abs() < 1e-15);
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn cloth_bends_over_a_fold_of_angle_zero_as_everywhere() {
     let parabola = |p: &Vec2| p.push(0.5 * p.y * p.y / radius);
     let x: Vec<Vec3> = job.mesh.flat.iter().map(parabola).collect();
     let known = 0.5 * WARP * area(&job) / (radius * radius);
-    let found = cloth.bending.energy(&x);
+    let found = cloth.elastic.bending.energy(&x);
     assert!((found / known - 1.0).abs() < 1e-3, "{found} against {known}");
     // What a crease would give for nothing bends the row of particles on the line.
     let sharp = 0.5 * WARP * 0.1 * 2.0 / 0.01;

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use toile::contact::{Contact, Under};
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
-    Cloth, ContactLaw, Cut, Forces, Hardening, Pull, Spring, SpringModel, Stepper, Stretch, StretchLaw, identity_nodes,
+    Cloth, ContactLaw, Cut, Elements, Forces, Hardening, Membrane, Pull, Spring, SpringModel, Stepper, Stretch,
+    StretchLaw, identity_nodes,
 };
 use toile::fabric::{self, GRAVITY};
 use toile::geometry::{Path, Vec2, Vec3};
@@ -62,19 +63,22 @@ fn panel(width: f64, height: f64, spacing: f64, model: SpringModel) -> (Cloth, V
     (cloth, x)
 }
 
+/// A cloth with other springs and no shear.
+fn with_springs(cloth: &Cloth, springs: Vec<Spring>, laws: Vec<StretchLaw>) -> Cloth {
+    let mut out = cloth.clone();
+    out.elastic.membrane = Membrane::new(cloth.mass.len(), Elements { springs, ..Elements::default() }, laws);
+    out
+}
+
 /// A small sheet without springs and shear.
 fn slack() -> (Cloth, Vec<Vec3>) {
-    let (mut cloth, x) = panel(20.0, 20.0, 6.0, SpringModel::Soft { stiffness: 1.0, bias: 1.0 });
-    cloth.springs.clear();
-    (cloth, x)
+    let (cloth, x) = panel(20.0, 20.0, 6.0, SpringModel::Soft { stiffness: 1.0, bias: 1.0 });
+    (with_springs(&cloth, Vec::new(), Vec::new()), x)
 }
 
 /// What `forces`, springs and shear of `cloth` add to the forces of its bending.
 fn added(cloth: &Cloth, forces: Forces, x: &[Vec3]) -> Vec<Vec3> {
-    let mut bare = cloth.clone();
-    bare.springs.clear();
-    bare.threads.clear();
-    bare.shears.clear();
+    let bare = with_springs(cloth, Vec::new(), Vec::new());
     let (all, bending) = (law_of(cloth, forces)(x), law_of(&bare, NOTHING)(x));
     all.iter().zip(&bending).map(|(a, b)| a - b).collect()
 }
@@ -116,12 +120,11 @@ fn weight_is_density_times_area_times_gravity() {
 
 #[test]
 fn a_hooke_spring_pulls_in_proportion() {
-    let (mut cloth, mut x) = slack();
-    let unsprung = cloth.clone();
+    let (unsprung, mut x) = slack();
     // 1 N/mm: stiffness · width / rest length.
     let rest = (x[1] - x[0]).norm();
-    cloth.laws = vec![StretchLaw::linear(1000.0 * rest / 0.01)];
-    cloth.springs = vec![Spring { ends: [0, 1], stretch: Stretch { rest, width: 0.01, law: 0 } }];
+    let spring = Spring { ends: [0, 1], stretch: Stretch { rest, width: 0.01, law: 0 } };
+    let cloth = with_springs(&unsprung, vec![spring], vec![StretchLaw::linear(1000.0 * rest / 0.01)]);
     let (along, at_rest) = ((x[1] - x[0]).normalize(), x[1]);
     for stretch in [-2e-3, 0.0, 1e-3, 5e-3] {
         x[1] = at_rest + along * stretch;
@@ -145,7 +148,8 @@ fn cloth_that_is_strained_evenly_is_in_balance_up_to_its_rim() {
     let fabrics = [Arc::new(fabric::load("denim").expect("shipped"))];
     let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
     let cloth = Cloth::new(&cut, identity_nodes(&mesh), SpringModel::Measured);
-    assert!(cloth.threads.len() > 20, "{} threads off the grid", cloth.threads.len());
+    let threads = cloth.elastic.membrane.elements().threads.len();
+    assert!(threads > 20, "{threads} threads off the grid");
     for [across, along, sheared] in [[1.02, 1.0, 0.0], [1.0, 1.01, 0.0], [1.0, 1.0, 0.03]] {
         let strained = |p: &Vec2| Vec3::new(across * p.x + sheared * p.y, -along * p.y, 0.0);
         let forces = added(&cloth, NOTHING, &mesh.flat.iter().map(strained).collect::<Vec<_>>());
@@ -170,8 +174,9 @@ fn a_closure_ties_what_it_joins_with_a_short_thread() {
     let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
     // Far shorter than the grid's own.
     let short = |model| -> Vec<Spring> {
-        let springs = Cloth::new(&cut, identity_nodes(&mesh), model).springs;
-        springs.into_iter().filter(|s| s.stretch.rest <= 2.0 * MM).collect()
+        let cloth = Cloth::new(&cut, identity_nodes(&mesh), model);
+        let springs = &cloth.elastic.membrane.elements().springs;
+        springs.iter().filter(|s| s.stretch.rest <= 2.0 * MM).copied().collect()
     };
     // While the seams close nothing is fastened.
     assert!(short(SpringModel::Soft { stiffness: 50.0, bias: 0.3 }).is_empty());

@@ -185,14 +185,14 @@ fn a_sheet_at_rest_lies_still() {
     for _ in 0..400 {
         world.advance(dt, 0.95, &[]).expect("a step");
     }
-    let (before, energy) = (world.x.clone(), world.energy());
+    let (before, energy) = (world.x().to_vec(), world.energy());
     let mut fastest = 0.0f64;
     for _ in 0..1000 {
         // Nothing but the steps themselves takes from its velocity.
         world.advance(dt, 1.0, &[]).expect("a step");
         fastest = world.velocity.iter().map(|v| v.norm()).fold(fastest, f64::max);
     }
-    let drift = world.x.iter().zip(&before).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let drift = world.x().iter().zip(&before).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     let gained = world.energy() / energy - 1.0;
     assert!(fastest < 1e-3 && drift < 1e-3, "up to {fastest} m/s, {drift} m far");
     assert!((-1e-4..1e-9).contains(&gained), "its energy changes by {gained:e} of itself");

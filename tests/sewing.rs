@@ -490,7 +490,7 @@ fn stitching_keeps_the_weight() {
     let weight = made.fabrics[0].areal_density * area;
     let mass: f64 = world.cloth.mass.iter().sum();
     assert!((mass - weight).abs() < 1e-9 * weight, "{mass} kg and not {weight}");
-    assert_eq!(world.x.len(), stitching.classes);
+    assert_eq!(world.x().len(), stitching.classes);
 }
 
 /// The two squares as one sheet, stitched where they lie, and where its nodes are when flat: a metre before the body.
@@ -510,7 +510,7 @@ fn a_sheet_without_a_strain_stays_as_it_is() {
     let mut told = 0;
     let (steps, tangles) = settle(&mut world, Calm::TO_FALL, &mut || told += 1).expect("settled");
     assert_eq!((steps, tangles, told), (1, 0, 1));
-    let moved = world.x.iter().zip(&nodes).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let moved = world.x().iter().zip(&nodes).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     assert!(moved < 1e-6, "{moved} m");
 }
 
@@ -524,7 +524,7 @@ fn springs_pull_a_stretched_sheet_true() {
     settle(&mut world, Calm::TO_FALL, &mut || {}).expect("settled");
     let after = world.energy();
     assert!(after < 0.25 * before, "{before} J became {after} J");
-    let width = |k: fn(f64, f64) -> f64, from: f64| world.x.iter().map(|p| p.x).fold(from, k);
+    let width = |k: fn(f64, f64) -> f64, from: f64| world.x().iter().map(|p| p.x).fold(from, k);
     let width = width(f64::max, f64::NEG_INFINITY) - width(f64::min, f64::INFINITY);
     assert!((width - 240.0 * MM).abs() < 0.24 * MM, "{width}");
 }
@@ -550,9 +550,9 @@ fn a_corner_that_went_through_is_led_out() {
     let count = |x: &[Vec3], triangles: &[[u32; 3]]| {
         crossings(&TriMesh { vertices: x.to_vec(), triangles: triangles.to_vec() }).len()
     };
-    assert!(count(&world.x, &world.cloth.triangles) > 0, "nothing to lead out");
+    assert!(count(world.x(), &world.cloth.triangles) > 0, "nothing to lead out");
     let (steps, tangles) = settle(&mut world, Calm::TO_FALL, &mut || {}).expect("settled");
-    assert_eq!((tangles, count(&world.x, &world.cloth.triangles)), (0, 0), "after {steps} steps");
+    assert_eq!((tangles, count(world.x(), &world.cloth.triangles)), (0, 0), "after {steps} steps");
 }
 
 /// The rim of an ear between the particles of a hood stayed there: each of them was outside.
@@ -575,7 +575,7 @@ fn what_a_thin_part_of_the_body_pokes_through_comes_off_it() {
         let mut world = sewn_world(&made.cut(), &collider, &stitching, nodes.clone()).expect("a world");
         assert!(world.is_cut());
         let (_, tangles) = settle(&mut world, Calm::TO_FALL, &mut || {}).expect("settled");
-        let cloth = TriMesh { vertices: world.x.clone(), triangles: world.cloth.triangles.clone() };
+        let cloth = TriMesh { vertices: world.x().to_vec(), triangles: world.cloth.triangles.clone() };
         let between = crossings_between(&cloth, &spike);
         assert_eq!((tangles, between.pairs.len(), world.is_cut()), (0, 0, false), "{aside} m");
     }

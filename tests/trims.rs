@@ -320,7 +320,7 @@ fn a_fold_comes_to_rest_at_the_angle_it_was_pressed_to() {
         let normal = |left: bool| {
             let side = |t: &&[u32; 3]| (t.iter().map(|&p| mesh.flat[p as usize].x).sum::<f64>() < 0.18) == left;
             mesh.triangles.iter().filter(side).fold(Vec3::zeros(), |sum, t| {
-                let [a, b, c] = t.map(|p| world.x[p as usize]);
+                let [a, b, c] = t.map(|p| world.x()[p as usize]);
                 sum + (c - a).cross(&(b - a))
             })
         };
@@ -331,7 +331,7 @@ fn a_fold_comes_to_rest_at_the_angle_it_was_pressed_to() {
         // Positive: the wrong sides (away from the normals) turn towards each other, the crease stands out.
         let middle = |edge: f64| {
             let on: Vec<usize> = (0..mesh.flat.len()).filter(|&p| (mesh.flat[p].x - edge).abs() < 1e-6).collect();
-            on.iter().map(|&p| world.x[p]).sum::<Vec3>() / on.len() as f64
+            on.iter().map(|&p| world.x()[p]).sum::<Vec3>() / on.len() as f64
         };
         let proud = (middle(0.06) - 0.5 * (middle(0.0) + middle(0.12))).dot(&(left + right));
         assert!(proud * angle > 0.0, "{proud}");

@@ -158,7 +158,7 @@ pub fn drape(
     let spacing = cut.mesh.spacing;
     let look = [thick + NEAREST_LOOK, drape_reach(spacing, thick)];
     let near = options.near;
-    let (last, trust) = (world.x.clone(), TRUST[0] * spacing);
+    let (last, trust) = (world.x().to_vec(), TRUST[0] * spacing);
     let hardens = options.until == Until::Rest;
     let mut fall = Fall { last, world, steps: 0, tested: 0, near, hardens, trust, look, spacing };
     let (drift, residual, converged) = match options.until {
@@ -171,7 +171,7 @@ pub fn drape(
     progress(1.0);
     let Fall { world, steps, tested, .. } = fall;
     let (energy, contact, body_forces) = (world.energy(), world.contact_time(), world.body_forces());
-    Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, body_forces, contact })
+    Ok(Draped { energy, nodes: world.into_x(), steps, tested, converged, drift, residual, body_forces, contact })
 }
 
 /// Checks that a drape that did not come to rest has at least lowered the energy of the garment `sewn` (positions as in
@@ -192,9 +192,8 @@ pub fn check_fall(
     let mut world = sewn_world(cut, body, stitching, sewn)?;
     world.gravity = 1.0;
     let from = world.energy();
-    world.x.clone_from(&draped.nodes);
     // By the same contact law: hardened contacts store joules where limbs leave less room than the cloth is thick.
-    world.displaced()?;
+    world.displace(draped.nodes.clone())?;
     let to = world.energy();
     let mass: f64 = world.cloth.mass.iter().sum();
     if to <= from + mass * GRAVITY * LIFTED {
@@ -254,9 +253,9 @@ impl Fall<'_> {
     fn settle(&mut self, most: usize, settled: f64, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
         let mut is_settled = false;
         while !is_settled && self.steps < most {
-            let before = self.world.x.clone();
+            let before = self.world.x().to_vec();
             let is_still = self.stretch(settled, most)?;
-            let [moved, most_moved] = motion(&before, &self.world.x);
+            let [moved, most_moved] = motion(&before, self.world.x());
             is_settled = is_still || moved <= settled;
             self.world.look_within(self.reach(moved, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
@@ -283,14 +282,14 @@ impl Fall<'_> {
     fn stretch(&mut self, settled: f64, most: usize) -> Result<bool, StepError> {
         let mut still = Still::default();
         for _ in self.steps..most.min(self.steps + STRETCH) {
-            let from = self.world.x.clone();
+            let from = self.world.x().to_vec();
             if self.near {
                 self.step(STEP)?;
             } else {
                 self.fall()?;
             }
             self.steps += 1;
-            if still.after(STRETCH as f64 * motion(&from, &self.world.x)[0], settled) {
+            if still.after(STRETCH as f64 * motion(&from, self.world.x())[0], settled) {
                 return Ok(true);
             }
         }
@@ -307,9 +306,10 @@ impl Fall<'_> {
             } else if resting.is_empty() {
                 break;
             }
-            before.clone_from(&self.world.x);
+            before.clear();
+            before.extend_from_slice(self.world.x());
             let is_still = self.stretch(CALMER * settled, most)?;
-            if is_still || motion(&before, &self.world.x)[0] <= CALMER * settled || self.steps >= most {
+            if is_still || motion(&before, self.world.x())[0] <= CALMER * settled || self.steps >= most {
                 break;
             }
         }
@@ -320,8 +320,8 @@ impl Fall<'_> {
     /// has more than the share [`PART`] of the free nodes.
     fn moving(&self, before: &[Vec3]) -> Option<Vec<bool>> {
         let cloth = &self.world.cloth;
-        let moves = MOVES.max(SHARE * motion(before, &self.world.x)[1]);
-        let mut moving: Vec<bool> = before.iter().zip(&self.world.x).map(|(a, b)| (a - b).norm() > moves).collect();
+        let moves = MOVES.max(SHARE * motion(before, self.world.x())[1]);
+        let mut moving: Vec<bool> = before.iter().zip(self.world.x()).map(|(a, b)| (a - b).norm() > moves).collect();
         for _ in 0..RINGS {
             moving = cloth.with_neighbours(&moving);
         }
@@ -335,12 +335,12 @@ impl Fall<'_> {
         let [nearest, widest] = self.look;
         let near = (LOOK * most_moved).clamp(nearest, widest);
         let falling = moved.min(CELLS * self.spacing);
-        let is_free = self.world.contacts_found() < self.world.x.len();
+        let is_free = self.world.contacts_found() < self.world.x().len();
         if is_free && falling > near { Reach::new(falling).with_features() } else { Reach::new(near) }
     }
 
     fn fall(&mut self) -> Result<(), StepError> {
-        let now = self.world.x.clone();
+        let now = self.world.x().to_vec();
         self.world.fall(&self.last)?;
         self.last = now;
         Ok(())
@@ -358,20 +358,20 @@ impl Fall<'_> {
     /// The test ends early if the garment hardly moves any more, has gone too far already, or tests have made `most`
     /// steps. The remaining steps then count as if each went as far as the last one, in the same direction.
     fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
-        let before = self.world.x.clone();
+        let before = self.world.x().to_vec();
         let (mut left_out, mut still) = ([0.0; 2], Still::default());
         for left in (0..self.steps).rev() {
-            let from = self.world.x.clone();
+            let from = self.world.x().to_vec();
             self.step(0.5 * STEP)?;
             self.tested += 1;
-            let still_to_go = motion(&from, &self.world.x).map(|way| way * left as f64);
-            let is_decided = still.after(still_to_go[0], DRIFT) || motion(&before, &self.world.x)[0] > DRIFT;
+            let still_to_go = motion(&from, self.world.x()).map(|way| way * left as f64);
+            let is_decided = still.after(still_to_go[0], DRIFT) || motion(&before, self.world.x())[0] > DRIFT;
             if is_decided || self.tested >= most {
                 left_out = still_to_go;
                 break;
             }
         }
-        let [mean, largest] = motion(&before, &self.world.x);
+        let [mean, largest] = motion(&before, self.world.x());
         Ok([mean + left_out[0], largest + left_out[1]])
     }
 }

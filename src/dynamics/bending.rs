@@ -3,7 +3,9 @@
 //! E = ½ Σ w |Σ c (x_b − x_a)|². Every stencil is a curvature, written as a sum of differences along edges of the mesh
 //! (see `curvature`). The matrix is scalar and constant, and the same for x, y and z.
 
-use crate::geometry::Vec3;
+use super::energy::{Bound, Elastic, Energy, Exerted, Stiffness};
+use crate::geometry::{Mat3, Vec3};
+use crate::linear::BlockColumn;
 use crate::parallel::{self, MEDIUM};
 
 /// A curvature and the weight of its square.
@@ -21,8 +23,55 @@ pub struct Bending {
     starts: Vec<u32>,
     columns: Vec<u32>,
     values: Vec<f64>,
-    /// Per edge (smaller node first, sorted): a weight w so that Σ w |xᵢ − xⱼ|² ≥ xᵀ Q x.
-    bound: Vec<([u32; 2], f64)>,
+    bound: EdgeBound,
+}
+
+/// A bound of Q edge by edge: Σ w |xᵢ − xⱼ|² ≥ xᵀ Q x.
+#[derive(Clone, Debug, Default)]
+struct EdgeBound {
+    /// Edges, smaller node first, sorted, and their weights w, N/m.
+    edges: Vec<([u32; 2], f64)>,
+    /// Start of every node's edges to later nodes, and their total.
+    starts: Vec<u32>,
+    /// Sum of the weights of the edges at every node, N/m.
+    at_nodes: Vec<f64>,
+}
+
+impl EdgeBound {
+    /// Weights of edges between so many `nodes`. Those of one edge add up.
+    fn new(nodes: usize, mut weights: Vec<([u32; 2], f64)>) -> Self {
+        weights.sort_by_key(|e| e.0);
+        let edges: Vec<([u32; 2], f64)> =
+            weights.chunk_by(|a, b| a.0 == b.0).map(|g| (g[0].0, g.iter().map(|e| e.1).sum())).collect();
+        let (mut starts, mut at_nodes) = (vec![0; nodes + 1], vec![0.0; nodes]);
+        for ([a, b], weight) in &edges {
+            at_nodes[*a as usize] += weight;
+            at_nodes[*b as usize] += weight;
+            starts[*a as usize + 1] += 1;
+        }
+        (0..nodes).for_each(|i| starts[i + 1] += starts[i]);
+        Self { edges, starts, at_nodes }
+    }
+}
+
+impl Bound for EdgeBound {
+    fn isotropic(&self, node: usize) -> f64 {
+        self.at_nodes[node]
+    }
+
+    fn gather(&self, node: usize, column: &mut BlockColumn<f32>) {
+        for ([_, other], weight) in &self.edges[self.starts[node] as usize..self.starts[node + 1] as usize] {
+            column.add_below(*other, &(Mat3::identity() * -weight));
+        }
+    }
+}
+
+/// Q times positions or displacements.
+struct BendingProduct<'a> {
+    bending: &'a Bending,
+    x: &'a [Vec3],
+    /// 1, or −1 for forces.
+    sign: f64,
 }
 
 impl Bending {
@@ -47,15 +96,15 @@ impl Bending {
             }
         }
         let mut out = Self::from_entries(nodes, entries);
-        bound.sort_by_key(|e| e.0);
-        out.bound = bound.chunk_by(|a, b| a.0 == b.0).map(|g| (g[0].0, g.iter().map(|e| e.1).sum())).collect();
+        out.bound = EdgeBound::new(nodes, bound);
         out
     }
 
     /// Weight of the edge between nodes a < b in an edge-wise bound of Q: Σ w |x_a − x_b|² ≥ xᵀ Q x. On a square grid
     /// it is 8 B / h², where the bound is sharp.
-    pub fn bound(&self, ends: [u32; 2]) -> f64 {
-        self.bound.binary_search_by(|e| e.0.cmp(&ends)).map_or(0.0, |i| self.bound[i].1)
+    pub fn edge_bound(&self, ends: [u32; 2]) -> f64 {
+        let edges = &self.bound.edges;
+        edges.binary_search_by(|e| e.0.cmp(&ends)).map_or(0.0, |i| edges[i].1)
     }
 
     fn from_entries(nodes: usize, mut entries: Vec<(u32, u32, f64)>) -> Self {
@@ -68,19 +117,6 @@ impl Bending {
         }
         for i in 0..nodes {
             out.starts[i + 1] += out.starts[i];
-        }
-        out
-    }
-
-    /// The matrix without entries between two held nodes. The gradient at free nodes stays the same.
-    pub(super) fn around(&self, is_held: &[bool]) -> Self {
-        let mut out = Self { starts: vec![0], bound: self.bound.clone(), ..Self::default() };
-        for (i, held) in is_held.iter().enumerate() {
-            for (j, value) in self.row(i).filter(|(j, _)| !held || !is_held[*j]) {
-                out.columns.push(j as u32);
-                out.values.push(value);
-            }
-            out.starts.push(out.columns.len() as u32);
         }
         out
     }
@@ -99,6 +135,57 @@ impl Bending {
     /// The energy, J.
     pub fn energy(&self, x: &[Vec3]) -> f64 {
         0.5 * parallel::sum(x.len(), MEDIUM, |i| x[i].dot(&self.gradient(x, i)))
+    }
+}
+
+impl Exerted for BendingProduct<'_> {
+    fn gather(&self, node: usize, sum: Vec3) -> Vec3 {
+        sum + self.bending.gradient(self.x, node) * self.sign
+    }
+}
+
+impl Stiffness for Bending {
+    fn times<'a>(&'a self, p: &'a [Vec3]) -> impl Exerted + 'a {
+        BendingProduct { bending: self, x: p, sign: 1.0 }
+    }
+}
+
+impl Energy for Bending {
+    fn energy(&self, x: &[Vec3]) -> f64 {
+        self.energy(x)
+    }
+
+    fn forces<'a>(&'a self, x: &'a [Vec3]) -> impl Exerted + 'a {
+        BendingProduct { bending: self, x, sign: -1.0 }
+    }
+
+    fn stiffness<'a>(&'a self, _x: &'a [Vec3]) -> impl Stiffness + 'a {
+        self
+    }
+
+    fn bound<'a>(&'a self, _x: &'a [Vec3]) -> impl Bound + 'a {
+        &self.bound
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.bound.edges.iter().map(|e| e.0)
+    }
+}
+
+impl Elastic for Bending {
+    type Loads = ();
+
+    /// The bound stays as it is: blocks of held nodes are not in the pattern of the matrix.
+    fn around(&self, is_held: &[bool]) -> Self {
+        let mut out = Self { starts: vec![0], bound: self.bound.clone(), ..Self::default() };
+        for (i, held) in is_held.iter().enumerate() {
+            for (j, value) in self.row(i).filter(|(j, _)| !held || !is_held[*j]) {
+                out.columns.push(j as u32);
+                out.values.push(value);
+            }
+            out.starts.push(out.columns.len() as u32);
+        }
+        out
     }
 }
 

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::springs::StretchLaw;
+use super::stretch::StretchLaw;
 use crate::geometry::sorted_pair;
 use crate::mesh::{ClothMesh, DrawnIn};
 

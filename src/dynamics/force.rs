@@ -1,32 +1,15 @@
 //! The forces on the cloth at given positions, and their energies.
 
 use super::contact_law::ContactLaw;
+use super::energy::{Energy, on_nodes};
 use super::friction::{Friction, Grip, Hold};
-use super::links::Links;
 use super::model::Cloth;
+use super::pull::Pull;
+use super::scattered::Scattered;
+use super::weight::Weight;
 use crate::contact::Contact;
-use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 use crate::parallel::{self, MEDIUM};
-
-/// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
-#[derive(Clone, Copy, Debug)]
-pub struct Pull {
-    /// The two nodes.
-    pub ends: [u32; 2],
-    /// N/m.
-    pub stiffness: f64,
-    /// Gap beyond which the force grows no more, metres.
-    pub cap: f64,
-}
-
-impl Pull {
-    /// Force over gap at `x`, N/m.
-    pub(super) fn stiffness_at(&self, x: &[Vec3]) -> f64 {
-        let gap = (x[self.ends[1] as usize] - x[self.ends[0] as usize]).norm();
-        self.stiffness * (self.cap / gap.max(1e-12)).min(1.0)
-    }
-}
 
 /// External forces: everything that acts on the cloth besides its own elasticity.
 #[derive(Clone, Copy)]
@@ -54,20 +37,29 @@ impl Forces<'_> {
         self.friction?.hold(k, &self.contacts[k], x, load, &cloth.friction)
     }
 
+    /// The weight of `cloth`.
+    pub(super) fn weight<'a>(&self, cloth: &'a Cloth) -> Weight<'a> {
+        Weight { mass: &cloth.mass, share: self.gravity }
+    }
+
+    /// The stitches that are open, as an energy.
+    pub(super) fn stitches(&self) -> Scattered<'_, Pull> {
+        Scattered(self.pulls.into())
+    }
+
     /// Energy of elasticity, contact, weight and stored friction, J. Sliding friction has no energy of its own. It is
     /// modelled as a constant force at the normal forces `loads` (one per contact).
     pub(super) fn energy(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64]) -> f64 {
-        self.energy_with(cloth, x, loads, cloth.energy_of_elements(x))
+        self.energy_with(cloth, x, loads, cloth.elastic_energy(x))
     }
 
-    /// The same where the energy of springs, threads and shears is known to be `elements`, J.
-    pub(super) fn energy_with(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64], elements: f64) -> f64 {
-        let weight: f64 = cloth.mass.iter().zip(x).map(|(m, x)| m * x.y).sum::<f64>() * GRAVITY * self.gravity;
+    /// The same where the energy of the cloth's own elasticity is known to be `elastic`, J.
+    pub(super) fn energy_with(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64], elastic: f64) -> f64 {
         let touching = parallel::sum(self.contacts.len(), MEDIUM, |k| {
             let hold = self.hold(cloth, x, k, loads[k]);
             self.law.energy(cloth, x, &self.contacts[k]) + hold.map_or(0.0, |hold| hold.energy(Vec3::zeros()))
         });
-        elements + cloth.energy_of_folds(x) + touching + weight
+        elastic + touching + self.weight(cloth).energy(x)
     }
 
     /// The present normal force of every contact, N.
@@ -77,12 +69,12 @@ impl Forces<'_> {
 }
 
 /// All forces on the nodes at `x`, N.
-pub(crate) fn cloth_forces(cloth: &Cloth, links: &Links, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-    let mut out = free_forces(cloth, links, x, forces);
+pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
     let pushes = parallel::map(forces.contacts.len(), MEDIUM, |k| {
         let load = forces.law.load(cloth, x, &forces.contacts[k]);
         (load > 0.0).then(|| (load, forces.hold(cloth, x, k, load).map(|hold| hold.grip())))
     });
+    let mut out = free_forces(cloth, x, forces);
     for (contact, push_of) in forces.contacts.iter().zip(pushes) {
         if let Some((load, grip)) = push_of {
             push(&mut out, contact, load, grip);
@@ -99,19 +91,9 @@ pub(super) fn push(out: &mut [Vec3], contact: &Contact, load: f64, grip: Option<
     }
 }
 
-/// The forces without contact, N. `links` are those of `cloth`.
-pub(super) fn free_forces(cloth: &Cloth, links: &Links, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-    let first = |i: usize| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity);
-    let mut out = links.forces(cloth, x, first);
-    for crease in &cloth.creases {
-        for (n, f) in crease.nodes.iter().zip(crease.forces(x)) {
-            out[*n as usize] += f;
-        }
-    }
-    for pull in forces.pulls {
-        let f = (x[pull.ends[1] as usize] - x[pull.ends[0] as usize]) * pull.stiffness_at(x);
-        out[pull.ends[0] as usize] += f;
-        out[pull.ends[1] as usize] -= f;
-    }
-    out
+/// The forces without contact, N.
+pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+    let (weight, stitches) = (forces.weight(cloth), forces.stitches());
+    let all = (weight.forces(x), (cloth.elastic.forces(x), stitches.forces(x)));
+    on_nodes(x.len(), |_| Vec3::zeros(), &all)
 }

@@ -3,18 +3,23 @@
 use std::sync::Arc;
 
 use super::bending::Bending;
-use super::crease::{Crease, creases};
+use super::crease::creases;
 use super::curvature;
 use super::elastic::Elastics;
-use super::foreseen::Loads;
-use super::shear::{Shear, grid_triangles, shears};
-use super::springs::{Spring, Stretch, StretchLaw};
-use super::thread::{Thread, threads, weaves};
+use super::elasticity::Elasticity;
+use super::elements::Elements;
+use super::energy::{Elastic, Energy};
+use super::membrane::Membrane;
+use super::scattered::Scattered;
+use super::seam_rest::SeamRest;
+use super::shear::{grid_triangles, shears};
+use super::spring::Spring;
+use super::stretch::{Stretch, StretchLaw};
+use super::thread::{threads, weaves};
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
-use crate::parallel::{self, MEDIUM};
-use crate::pattern::{Garment, Give};
+use crate::pattern::Garment;
 
 /// The springs of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,9 +49,6 @@ const TACK_LENGTH: f64 = 1e-3;
 /// With 2,000 to 5,000 N/m the waistband of the trousers was drawn askew and took up to three times as long to rest,
 /// because the nearest particles are up to half a cell beside the points that are to meet.
 const TACK_STIFFNESS: f64 = 1000.0;
-/// Length ratio of a seam's sides above which an even seam counts as gathered: it then has the length of its shorter
-/// side.
-const GATHERED: f64 = 1.05;
 
 /// A garment that is cut: its pattern, its meshed pieces and the fabric of each.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +62,7 @@ pub struct Cut<'a> {
 }
 
 /// The cloth's physical model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Cloth {
     /// Particle of the mesh → node.
     pub node_of: Vec<u32>,
@@ -72,53 +74,23 @@ pub struct Cloth {
     pub flat: Vec<[Vec2; 3]>,
     /// Piece of every triangle.
     pub piece: Vec<u32>,
-    /// Springs along threads of the grid, along rims, along edges of cloth that is gathered or drawn in by elastic, and
-    /// of tacks.
-    pub springs: Vec<Spring>,
-    /// Threads of the triangles between the grid and the outline.
-    pub threads: Vec<Thread>,
-    /// Laws of springs and threads.
-    pub laws: Vec<StretchLaw>,
-    /// Shear of the grid's triangles and of those that have threads.
-    pub shears: Vec<Shear>,
-    /// Bending.
-    pub bending: Bending,
-    /// Pressed folds.
-    pub(super) creases: Vec<Crease>,
+    /// Stretch, shear, bending and creases.
+    pub elastic: Elasticity,
     /// Pairs of nodes that share a mesh edge or a spring: (smaller, larger), sorted, each once.
     pub edges: Vec<[u32; 2]>,
     /// Half the cloth's thickness at every node, metres.
     pub half_thickness: Vec<f64>,
     /// Friction coefficient at every node.
     pub friction: Vec<f64>,
-    /// [`Bending::bound`] of every edge, N/m.
-    pub bending_bound: Vec<f64>,
     /// Nodes that are held in place, such as those in the jaws of a clamp. Set it before the first step.
     pub held: Vec<u32>,
-    /// Loads of springs and shear as the last step foresaw them.
-    pub(super) foreseen: Loads,
 }
 
-/// The model of stretch and shear within the plane of the cloth.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Element<'a> {
-    /// A spring.
-    Spring(&'a Spring),
-    /// A thread of a triangle off the grid.
-    Thread(&'a Thread),
-    /// The shear of a triangle.
-    Shear(&'a Shear),
-}
-
-impl<'a> Element<'a> {
-    /// Its nodes.
-    pub(super) fn nodes(self) -> &'a [u32] {
-        match self {
-            Self::Spring(spring) => &spring.ends,
-            Self::Thread(thread) => &thread.nodes,
-            Self::Shear(shear) => &shear.nodes,
-        }
-    }
+/// Elements of a membrane that is being made, and their laws.
+#[derive(Default)]
+struct MembraneParts {
+    elements: Elements,
+    laws: Vec<StretchLaw>,
 }
 
 /// Pairs of nodes with a spring or the side of a triangle between them, smaller first, sorted.
@@ -156,29 +128,25 @@ impl Cloth {
             mass: vec![0.0; nodes],
             half_thickness: vec![0.0; nodes],
             friction: vec![0.0; nodes],
-            springs: Vec::new(),
-            threads: Vec::new(),
-            laws: Vec::new(),
-            shears: Vec::new(),
-            bending: Bending::default(),
-            creases: creases(mesh, &node_of, fabrics),
-            edges: Vec::new(),
-            bending_bound: Vec::new(),
-            held: Vec::new(),
-            foreseen: Loads::default(),
             node_of,
             triangles,
             flat,
             piece,
+            ..Self::default()
         };
         out.weigh(mesh, fabrics);
-        out.add_springs(mesh, garment, fabrics, model);
+        let mut parts = MembraneParts::default();
+        out.add_springs(&mut parts, cut, model);
         if model == SpringModel::Measured {
-            out.add_tacks(mesh, garment);
+            out.add_tacks(&mut parts, mesh, garment);
         }
-        out.edges = joined(&out.springs, &out.triangles);
+        out.edges = joined(&parts.elements.springs, &out.triangles);
         let hem = if model == SpringModel::Raw { 0.0 } else { RIM_WIDTH };
-        out.add_bending(mesh, garment, fabrics, hem);
+        out.elastic = Elasticity {
+            bending: out.bending(mesh, garment, fabrics, hem),
+            creases: Scattered(creases(mesh, &out.node_of, fabrics).into()),
+            membrane: Membrane::new(nodes, parts.elements, parts.laws),
+        };
         out
     }
 
@@ -225,10 +193,12 @@ impl Cloth {
 
     /// Adds springs, threads and shear. The width of a spring is that of the cloth beside it that has no threads of its
     /// own. On the grid, threads have springs and diagonals have none. Soft cloth has springs only.
-    fn add_springs(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], model: SpringModel) {
+    fn add_springs(&self, parts: &mut MembraneParts, cut: &Cut, model: SpringModel) {
+        let Cut { garment, mesh, fabrics } = *cut;
+        let MembraneParts { elements, laws } = parts;
         let seam_rest = SeamRest::new(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
-        let laws_of = self.make_laws(fabrics, model);
+        let laws_of = make_laws(laws, fabrics, model);
         let mut elastics = Elastics::new(mesh);
         let (grid, weaves) = match model {
             SpringModel::Measured | SpringModel::Raw => {
@@ -240,8 +210,8 @@ impl Cloth {
             SpringModel::Soft { .. } => (vec![None; mesh.triangles.len()], vec![None; mesh.triangles.len()]),
         };
         let of_threads = |piece: usize| [laws_of[piece], laws_of[piece] + ANGLE_STEPS as u32];
-        (self.threads, self.shears) = threads(mesh, &weaves, &self.node_of, fabrics, of_threads);
-        self.shears.extend(shears(mesh, &grid, &self.node_of, fabrics));
+        (elements.threads, elements.shears) = threads(mesh, &weaves, &self.node_of, fabrics, of_threads);
+        elements.shears.extend(shears(mesh, &grid, &self.node_of, fabrics));
         for edge in &topology.edges {
             let [a, b] = edge.ends;
             let along = mesh.flat[b as usize] - mesh.flat[a as usize];
@@ -254,7 +224,7 @@ impl Cloth {
             let mut push = |rest: f64, width: f64, law: u32| {
                 let ends = edge.ends.map(|e| self.node_of[e as usize]);
                 if ends[0] != ends[1] && width > 0.0 {
-                    self.springs.push(Spring { ends, stretch: Stretch { rest, width, law } });
+                    elements.springs.push(Spring { ends, stretch: Stretch { rest, width, law } });
                 }
             };
             let rim = edge.triangles[1].is_none();
@@ -264,13 +234,13 @@ impl Cloth {
             let (law, width) = (laws_of[p] + step as u32, held / along.norm());
             let elastic = elastics.on(edge.ends);
             let mut cloth = |law: u32| match elastic {
-                Some(_) => elastics.gathers(law, &mut self.laws),
+                Some(_) => elastics.gathers(law, laws),
                 None => law,
             };
             push(rest, width, cloth(law));
             let hem = (rim && model != SpringModel::Raw).then(|| cloth(laws_of[p]));
             if let Some(band) = elastic.filter(|e| e.band) {
-                push(rest * band.ratio, 1.0, elastics.band(&mut self.laws));
+                push(rest * band.ratio, 1.0, elastics.band(laws));
             }
             if let Some(hem) = hem {
                 push(rest, RIM_WIDTH, hem);
@@ -279,50 +249,26 @@ impl Cloth {
     }
 
     /// A short strong spring for every tack of the closures, between the particles nearest to its ends.
-    fn add_tacks(&mut self, mesh: &ClothMesh, garment: &Garment) {
-        let law = self.laws.len() as u32;
+    fn add_tacks(&self, parts: &mut MembraneParts, mesh: &ClothMesh, garment: &Garment) {
+        let law = parts.laws.len() as u32;
         let tacks: Vec<Spring> = tacked(mesh, garment)
             .map(|ends| ends.map(|particle| self.node_of[particle as usize]))
             .filter(|ends| ends[0] != ends[1])
             .map(|ends| Spring { ends, stretch: Stretch { rest: TACK_LENGTH, width: TACK_LENGTH, law } })
             .collect();
         if !tacks.is_empty() {
-            self.laws.push(StretchLaw::linear(TACK_STIFFNESS));
-            self.springs.extend(tacks);
+            parts.laws.push(StretchLaw::linear(TACK_STIFFNESS));
+            parts.elements.springs.extend(tacks);
         }
     }
 
-    /// Adds the laws of every piece, one per angle step from warp to weft. Returns the index of each piece's first law.
-    fn make_laws(&mut self, fabrics: &[Arc<Fabric>], model: SpringModel) -> Vec<u32> {
-        let mut firsts: Vec<u32> = Vec::with_capacity(fabrics.len());
-        for (p, fabric) in fabrics.iter().enumerate() {
-            if let Some(same) = (0..p).find(|&q| Arc::ptr_eq(&fabrics[q], fabric)) {
-                firsts.push(firsts[same]);
-                continue;
-            }
-            firsts.push(self.laws.len() as u32);
-            for step in 0..=ANGLE_STEPS {
-                let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
-                self.laws.push(match model {
-                    SpringModel::Measured | SpringModel::Raw => StretchLaw::of(fabric, angle),
-                    SpringModel::Soft { stiffness, bias } => {
-                        let diagonal = (2.0 * angle).sin().powi(2);
-                        StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))
-                    }
-                });
-            }
-        }
-        firsts
-    }
-
-    fn add_bending(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], hem: f64) {
+    fn bending(&self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], hem: f64) -> Bending {
         let mut stencils = curvature::of_pieces(mesh, fabrics, hem);
         stencils.extend(curvature::of_seams(mesh, garment, &self.node_of, fabrics));
         for flow in stencils.iter_mut().flat_map(|s| &mut s.flows) {
             *flow = (self.node_of[flow.0 as usize], self.node_of[flow.1 as usize], flow.2);
         }
-        self.bending = Bending::new(self.mass.len(), &stencils);
-        self.bending_bound = self.edges.iter().map(|e| self.bending.bound(*e)).collect();
+        Bending::new(self.mass.len(), &stencils)
     }
 
     /// Positions of all particles from those of the nodes.
@@ -330,50 +276,20 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
-    /// Updates the memory of the cloth after it moved to `x`: angles of creases, and the loads that the step predicted
-    /// (empty: none).
-    pub(super) fn follow(&mut self, x: &[Vec3], foresaw: Loads) {
-        self.creases.iter_mut().for_each(|c| c.follow(x));
-        self.foreseen = foresaw;
-    }
-
-    /// Number of springs, threads and shears.
-    pub(super) fn elements(&self) -> usize {
-        self.springs.len() + self.threads.len() + self.shears.len()
-    }
-
-    /// The element with this number: springs come first, then threads, then shears.
-    pub(super) fn element(&self, number: usize) -> Element<'_> {
-        let (springs, threads) = (self.springs.len(), self.threads.len());
-        match number {
-            k if k < springs => Element::Spring(&self.springs[k]),
-            k if k < springs + threads => Element::Thread(&self.threads[k - springs]),
-            k => Element::Shear(&self.shears[k - springs - threads]),
-        }
-    }
-
-    /// The law of a stretch.
-    pub(super) fn law(&self, stretch: &Stretch) -> &StretchLaw {
-        &self.laws[stretch.law as usize]
-    }
-
     /// Elastic energy (stretch, shear, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
-        self.energy_of_elements(x) + self.energy_of_folds(x)
+        self.elastic.energy(x)
     }
 
-    /// Energy of springs, threads and shears, J.
-    pub(super) fn energy_of_elements(&self, x: &[Vec3]) -> f64 {
-        parallel::sum(self.elements(), MEDIUM, |number| match self.element(number) {
-            Element::Spring(s) => s.stretch.energy(self.law(&s.stretch), s.span(x)),
-            Element::Thread(t) => t.stretch.energy(self.law(&t.stretch), t.span(x)),
-            Element::Shear(s) => s.energy(x),
-        })
-    }
-
-    /// Energy of bending and creases, J.
-    pub(super) fn energy_of_folds(&self, x: &[Vec3]) -> f64 {
-        self.bending.energy(x) + self.creases.iter().map(|c| c.energy(x)).sum::<f64>()
+    /// The cloth with all nodes held except the `free` ones, and without forces between held nodes.
+    pub(super) fn around(&self, free: &[bool]) -> Self {
+        let mut is_held = self.is_held();
+        is_held.iter_mut().zip(free).for_each(|(held, free)| *held |= !free);
+        Self {
+            elastic: self.elastic.around(&is_held),
+            held: (0..is_held.len() as u32).filter(|&n| is_held[n as usize]).collect(),
+            ..self.clone()
+        }
     }
 }
 
@@ -382,42 +298,25 @@ fn area([a, b, c]: &[Vec2; 3]) -> f64 {
     0.5 * (b - a).perp(&(c - a)).abs()
 }
 
-/// Rest lengths of rim edges once they are sewn, for seams whose sides differ in length.
-pub(super) struct SeamRest {
-    /// (ends, metres), sorted.
-    lengths: Vec<([u32; 2], f64)>,
-}
-
-impl SeamRest {
-    fn new(mesh: &ClothMesh, garment: &Garment) -> Self {
-        let mut lengths = Vec::new();
-        for (stitches, seam) in mesh.seams.iter().zip(&garment.seams) {
-            for w in stitches.pairs.windows(2) {
-                let side = |k: usize| (mesh.flat[w[0][k] as usize] - mesh.flat[w[1][k] as usize]).norm();
-                let (a, b) = (side(0), side(1));
-                if a <= 0.0 || b <= 0.0 {
-                    continue;
-                }
-                let rest = match seam.give {
-                    Give::Stretch(_) => a.max(b),
-                    Give::Gather(_) | Give::Ease(_) => a.min(b),
-                    Give::Even if a.max(b) > GATHERED * a.min(b) => a.min(b),
-                    Give::Even => 0.5 * (a + b),
-                };
-                for (&p, &q) in w[0].iter().zip(&w[1]) {
-                    lengths.push((sorted_pair([p, q]), rest));
-                }
-            }
+/// Adds the laws of every piece, one per angle step from warp to weft. Returns the index of each piece's first law.
+fn make_laws(laws: &mut Vec<StretchLaw>, fabrics: &[Arc<Fabric>], model: SpringModel) -> Vec<u32> {
+    let mut firsts: Vec<u32> = Vec::with_capacity(fabrics.len());
+    for (p, fabric) in fabrics.iter().enumerate() {
+        if let Some(same) = (0..p).find(|&q| Arc::ptr_eq(&fabrics[q], fabric)) {
+            firsts.push(firsts[same]);
+            continue;
         }
-        lengths.sort_by_key(|e| e.0);
-        lengths.dedup_by_key(|e| e.0);
-        Self { lengths }
+        firsts.push(laws.len() as u32);
+        for step in 0..=ANGLE_STEPS {
+            let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
+            laws.push(match model {
+                SpringModel::Measured | SpringModel::Raw => StretchLaw::of(fabric, angle),
+                SpringModel::Soft { stiffness, bias } => {
+                    let diagonal = (2.0 * angle).sin().powi(2);
+                    StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))
+                }
+            });
+        }
     }
-
-    /// Rest length of an edge of the mesh, metres: the one given by its seam, or that of the flat piece.
-    pub(super) fn of(&self, mesh: &ClothMesh, ends: [u32; 2]) -> f64 {
-        let found = self.lengths.binary_search_by(|e| e.0.cmp(&sorted_pair(ends)));
-        let flat = || (mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize]).norm();
-        found.map_or_else(|_| flat(), |k| self.lengths[k].1)
-    }
+    firsts
 }

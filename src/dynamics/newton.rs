@@ -8,12 +8,12 @@
 //! Contacts that begin or cease to push, to hold or to slide are kinks in the energy. A step that takes them on their
 //! wrong side need not lower the energy: garments swung to and fro on their friction.
 
+use super::energy::{Energy, Exerted, Stiffness, on_nodes};
 use super::force::{Forces, free_forces};
 use super::friction::{Grip, Hold};
-use super::links::{Links, Stiffness};
 use super::model::Cloth;
-use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
-use super::touching::Touching;
+use super::step::{Reuse, StepError, Stepper};
+use super::touching::{Pushing, Touching, opening, presses};
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 use crate::parallel::{self, LIGHT, MEDIUM};
@@ -51,14 +51,11 @@ impl Proposal {
 }
 
 /// The true stiffness of the cloth at one position, without contacts.
-struct ClothStiffness<'a> {
+struct ClothStiffness<'a, S> {
     cloth: &'a Cloth,
-    links: &'a Links,
     /// One over the square of the time step, 1/s².
     inertia: f64,
-    stiffness: Stiffness,
-    /// [`super::crease::Crease::root`] of every crease.
-    creases: Vec<[Vec3; 4]>,
+    stiffness: S,
 }
 
 impl Stepper {
@@ -74,11 +71,10 @@ impl Stepper {
         forces: &Forces,
         radius: f64,
     ) -> Result<Proposal, StepError> {
-        let links = self.links.clone();
-        let free = free_forces(cloth, &links, x, forces);
+        let free = free_forces(cloth, x, forces);
         let presses = presses(cloth, x, forces);
         let holds = parallel::map(presses.len(), MEDIUM, |k| forces.hold(cloth, x, k, presses[k].load));
-        let tangent = ClothStiffness::new(cloth, &links, x, dt);
+        let tangent = ClothStiffness { cloth, inertia: 1.0 / (dt * dt), stiffness: cloth.elastic.stiffness(x) };
         let mut step = Proposal::none(x.len());
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
@@ -105,15 +101,15 @@ impl Stepper {
     /// Conjugate gradients on the tangent with the contacts `touching`, starting from the step `from`.
     fn truncated(
         &self,
-        tangent: &ClothStiffness,
+        tangent: &ClothStiffness<impl Stiffness>,
         touching: &Touching,
         rhs: &[Vec3],
         from: &Proposal,
         radius: f64,
     ) -> Result<Vec<Vec3>, StepError> {
         let mut d = from.d.clone();
-        let pushed_back = touching.resist(&d);
-        let mut r = parallel::map(d.len(), LIGHT, |i| rhs[i] - (from.resisted[i] + touching.gather(&pushed_back, i)));
+        let pushed_back = touching.times(&from.d);
+        let mut r = parallel::map(d.len(), LIGHT, |i| rhs[i] - pushed_back.gather(i, from.resisted[i]));
         let mut z = self.apply_inverse(&r)?;
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
@@ -148,28 +144,11 @@ impl Stepper {
     }
 }
 
-impl<'a> ClothStiffness<'a> {
-    fn new(cloth: &'a Cloth, links: &'a Links, x: &[Vec3], dt: f64) -> Self {
-        let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
-        Self { cloth, links, inertia: 1.0 / (dt * dt), stiffness: links.stiffness(cloth, x), creases }
-    }
-
+impl<S: Stiffness> ClothStiffness<'_, S> {
     /// (M/Δt² + true stiffness) p, with the contacts `touching`.
     fn apply(&self, p: &[Vec3], touching: Option<&Touching>) -> Vec<Vec3> {
-        let cloth = self.cloth;
-        let pushed_back = touching.map(|t| (t, t.resist(p)));
-        let mut out = parallel::map(p.len(), MEDIUM, |i| {
-            let own = cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * self.inertia);
-            let free = own + self.links.times(&self.stiffness, p, i);
-            pushed_back.as_ref().map_or(free, |(t, resistances)| free + t.gather(resistances, i))
-        });
-        for (crease, root) in cloth.creases.iter().zip(&self.creases) {
-            let turned: f64 = crease.nodes.iter().zip(root).map(|(&n, g)| g.dot(&p[n as usize])).sum();
-            for (n, g) in crease.nodes.iter().zip(root) {
-                out[*n as usize] += g * turned;
-            }
-        }
-        out
+        let all = (self.stiffness.times(p), touching.map(|t| t.times(p)));
+        on_nodes(p.len(), |i| p[i] * (self.cloth.mass[i] * self.inertia), &all)
     }
 
     /// Largest change of an edge by the step `d`, metres. The motion of single nodes does not matter: a garment that
@@ -206,8 +185,8 @@ fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
 }
 
 /// Model of the energy near one position: quadratic without contact, and piecewise for every contact.
-struct Model<'a> {
-    tangent: &'a ClothStiffness<'a>,
+struct Model<'a, S> {
+    tangent: &'a ClothStiffness<'a, S>,
     contacts: &'a [Contact<'a>],
     /// Forces without contact, N.
     free: &'a [Vec3],
@@ -226,7 +205,7 @@ struct EnergyChange {
     misjudged: f64,
 }
 
-impl Model<'_> {
+impl<S: Stiffness> Model<'_, S> {
     /// The step of lowest energy on the way from `from` to `to`, which is halved again and again, and its misjudged
     /// energy. If none lowers the energy, it is the shortest one tried.
     fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Proposal, f64) {

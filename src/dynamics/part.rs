@@ -4,6 +4,7 @@
 //! treat the other nodes as walls. Their cost is that of the active set, because forces and contacts between held nodes
 //! are set aside.
 
+use super::energy::Elastic;
 use super::friction::Remembered;
 use super::model::Cloth;
 use super::near::Aside;
@@ -52,7 +53,7 @@ impl<'a> World<'a> {
     pub fn release(&mut self, resting: Resting<'a>) -> Result<(), StepError> {
         let Resting { mut cloth, stepper, touching, contacts, friction } = resting;
         let was_held = self.cloth.is_held();
-        cloth.take_turns_of(&self.cloth, &was_held);
+        cloth.elastic.take_back(&self.cloth.elastic, &was_held);
         (self.cloth, self.stepper, self.touching) = (cloth, stepper, touching);
         self.stepper.forget();
         self.proximity.release(&self.cloth, &self.x, contacts);
@@ -62,37 +63,4 @@ impl<'a> World<'a> {
         }
         self.detect()
     }
-}
-
-impl Cloth {
-    /// The cloth with all nodes held except the `free` ones, and without forces between held nodes.
-    fn around(&self, free: &[bool]) -> Self {
-        let mut is_held = self.is_held();
-        is_held.iter_mut().zip(free).for_each(|(held, free)| *held |= !free);
-        let moves = |nodes: &[u32]| nodes.iter().any(|&n| !is_held[n as usize]);
-        let springs: Vec<bool> = self.springs.iter().map(|s| moves(&s.ends)).collect();
-        let threads: Vec<bool> = self.threads.iter().map(|t| moves(&t.nodes)).collect();
-        let shears: Vec<bool> = self.shears.iter().map(|s| moves(&s.nodes)).collect();
-        Self {
-            springs: those(&self.springs, &springs),
-            threads: those(&self.threads, &threads),
-            shears: those(&self.shears, &shears),
-            creases: self.creases.iter().filter(|c| moves(&c.nodes)).copied().collect(),
-            bending: self.bending.around(&is_held),
-            held: (0..is_held.len() as u32).filter(|&n| is_held[n as usize]).collect(),
-            foreseen: self.foreseen.of(&[springs, threads, shears].concat()),
-            ..self.clone()
-        }
-    }
-
-    /// Copies the angles of creases that moved in `part`, where the nodes of `is_held` were held.
-    fn take_turns_of(&mut self, part: &Self, is_held: &[bool]) {
-        let moved = self.creases.iter_mut().filter(|c| c.nodes.iter().any(|&n| !is_held[n as usize]));
-        moved.zip(&part.creases).for_each(|(whole, part)| *whole = *part);
-    }
-}
-
-/// The items that are wanted.
-pub(super) fn those<T: Clone>(items: &[T], wanted: &[bool]) -> Vec<T> {
-    items.iter().zip(wanted).filter(|(_, wanted)| **wanted).map(|(item, _)| item.clone()).collect()
 }

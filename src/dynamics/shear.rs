@@ -10,9 +10,8 @@
 use std::sync::Arc;
 
 use super::curvature::thread_of;
-use super::foreseen::ElementForeseen;
-use super::springs::SHORTEST;
-use super::thread::{shares, span};
+use super::element::{Element, ElementForeseen, shares, span};
+use super::stretch::{SHORTEST, StretchLaw};
 use crate::fabric::Fabric;
 use crate::geometry::{Mat3, Vec2, Vec3};
 use crate::mesh::ClothMesh;
@@ -74,7 +73,7 @@ pub(super) struct ShearTangent {
     /// [`Shear::stiffness`].
     stiffness: f64,
     /// Gradient of φ for each leg, 1/m.
-    pub(super) turning: [Vec3; 2],
+    turning: [Vec3; 2],
     /// Directions of the legs over their lengths, 1/m.
     along: [Vec3; 2],
     /// The normal over the legs' lengths, 1/m.
@@ -83,10 +82,19 @@ pub(super) struct ShearTangent {
     load: [f64; 3],
 }
 
+/// Positive semidefinite bound of a [`ShearTangent`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShearBound {
+    /// The root r of the stiff part: rᵢ rⱼᵀ for ends i and j of the legs.
+    root: [Vec3; 2],
+    /// For each leg an isotropic stiffness for its load, N/m.
+    drawn: [f64; 2],
+}
+
 impl ShearTangent {
     /// Stiffness at a node that takes these `shares` of the forces at the far ends of the legs: for each leg, how it
     /// resists a displacement of its far end relative to the corner.
-    pub(super) fn row(&self, shares: [f64; 2]) -> [Mat3; 2] {
+    fn row(&self, shares: [f64; 2]) -> [Mat3; 2] {
         let [load, tan, sec] = self.load;
         let turning = (self.turning[0] * shares[0] + self.turning[1] * shares[1]) * self.stiffness;
         [0, 1].map(|k| {
@@ -97,41 +105,47 @@ impl ShearTangent {
         })
     }
 
-    /// Positive semidefinite bound: the root r of the stiff part (rᵢ rⱼᵀ for ends i and j of the legs), and for each
-    /// leg an isotropic stiffness for its load, N/m.
-    pub(super) fn bound(&self) -> ([Vec3; 2], [f64; 2]) {
+    fn bound(&self) -> ShearBound {
         let [_, tan, sec] = self.load.map(f64::abs);
         let root = self.stiffness.sqrt();
         // The out-of-plane part has the eigenvalues −tan φ ± 1/cos φ, the in-plane part ± 1.
-        (self.turning.map(|g| g * root), self.along.map(|a| (tan + sec) * a.norm_squared()))
+        let drawn = self.along.map(|a| (tan + sec) * a.norm_squared());
+        ShearBound { root: self.turning.map(|g| g * root), drawn }
     }
 }
 
 impl Shear {
     /// Both legs, from displacements or positions of the nodes.
-    pub(super) fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
+    fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
         self.legs.map(|weights| span(self.nodes, weights, x))
     }
 
     /// Forces at the far ends of the legs, distributed to the nodes.
-    pub(super) fn at_nodes(&self, [u, v]: [Vec3; 2]) -> [Vec3; 3] {
+    fn at_nodes(&self, [u, v]: [Vec3; 2]) -> [Vec3; 3] {
         let [one, other] = self.legs.map(shares);
         [0, 1, 2].map(|n| u * one[n] + v * other[n])
     }
+}
 
-    /// Its energy at `x`, J.
-    pub(super) fn energy(&self, x: &[Vec3]) -> f64 {
+impl Element<3> for Shear {
+    type Tangent = ShearTangent;
+    type Bound = ShearBound;
+
+    fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    fn energy(&self, _laws: &[StretchLaw], x: &[Vec3]) -> f64 {
         0.5 * self.stiffness * (Legs::new(self.legs(x)).angle - self.rest).powi(2)
     }
 
-    /// Forces on its nodes at `x`, N.
-    pub(super) fn forces(&self, x: &[Vec3]) -> [Vec3; 3] {
+    fn forces(&self, _laws: &[StretchLaw], x: &[Vec3]) -> [Vec3; 3] {
         let legs = Legs::new(self.legs(x));
         self.at_nodes(legs.turning().map(|g| g * (self.stiffness * (self.rest - legs.angle))))
     }
 
-    /// Tangent stiffness at `x`. Its geometric part uses `load` (N·m per radian) if given, otherwise the load at `x`.
-    pub(super) fn tangent(&self, x: &[Vec3], load: Option<f64>) -> ShearTangent {
+    /// The load is in N·m per radian.
+    fn tangent(&self, _laws: &[StretchLaw], x: &[Vec3], load: Option<f64>) -> ShearTangent {
         let legs = Legs::new(self.legs(x));
         let load = load.unwrap_or(self.stiffness * (legs.angle - self.rest));
         let (sin, cos) = legs.angle.sin_cos();
@@ -145,8 +159,23 @@ impl Shear {
         }
     }
 
-    /// Prediction of the linear model of a step from `x` to `to`.
-    pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> ElementForeseen {
+    fn add_row(&self, tangent: &ShearTangent, corner: usize, mut add: impl FnMut(usize, Mat3)) {
+        let of_legs = self.legs.map(shares);
+        let legs = tangent.row(of_legs.map(|shares| shares[corner]));
+        (0..3).for_each(|k| add(k, legs[0] * of_legs[0][k] + legs[1] * of_legs[1][k]));
+    }
+
+    fn bound(tangent: &ShearTangent) -> ShearBound {
+        tangent.bound()
+    }
+
+    fn bound_block(&self, ShearBound { root, drawn }: &ShearBound, i: usize, j: usize) -> Mat3 {
+        let (root, [one, other]) = (self.at_nodes(*root), self.legs.map(shares));
+        let drawn = drawn[0] * one[i] * one[j] + drawn[1] * other[i] * other[j];
+        root[i] * root[j].transpose() + Mat3::identity() * drawn
+    }
+
+    fn foresee(&self, _laws: &[StretchLaw], x: &[Vec3], to: &[Vec3]) -> ElementForeseen {
         let (from, after) = (self.legs(x), self.legs(to));
         let before = Legs::new(from);
         let turned: f64 = before.turning().iter().zip(after).zip(from).map(|((g, a), b)| g.dot(&(a - b))).sum();
@@ -206,7 +235,6 @@ pub(super) fn shears(
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use nalgebra::SMatrix;
 
     const LENGTHS: [f64; 2] = [0.012, 0.009];
     const G: f64 = 30.0;
@@ -223,21 +251,6 @@ mod tests {
         vec![corner, corner + one * u, corner + (one * angle.sin() + other * angle.cos()) * v]
     }
 
-    /// Positions in which nothing is small or square.
-    fn positions() -> Vec<Vec<Vec3>> {
-        [-1.2, -0.4, 0.0, 0.3, 0.9].map(|angle| sheared([0.1, -0.2], angle)).to_vec()
-    }
-
-    /// The change of the forces when node j goes along k, for all of them.
-    fn matrix(apply: impl Fn([Vec3; 2]) -> [Vec3; 2]) -> SMatrix<f64, 9, 9> {
-        SMatrix::from_fn(|row, column| {
-            let mut way = [Vec3::zeros(); 3];
-            way[column / 3][column % 3] = 1.0;
-            let [u, v] = apply([way[1] - way[0], way[2] - way[0]]);
-            [-u - v, u, v][row / 3][row % 3]
-        })
-    }
-
     /// Resisting forces at the far ends of the legs for displacements `ways` relative to the corner.
     fn apply(tangent: &ShearTangent, ways: [Vec3; 2]) -> [Vec3; 2] {
         [[1.0, 0.0], [0.0, 1.0]].map(|shares| {
@@ -247,86 +260,20 @@ mod tests {
     }
 
     #[test]
-    fn forces_are_the_slope_of_the_energy() {
-        for rest in [0.0, 0.004] {
-            let shear = Shear { rest, ..shear() };
-            for mut x in positions() {
-                let forces = shear.forces(&x);
-                let scale = forces.iter().map(Vec3::norm).fold(1e-3, f64::max);
-                for (node, force) in forces.iter().enumerate() {
-                    for k in 0..3 {
-                        let mut at = |d: f64| {
-                            x[node][k] += d;
-                            let energy = shear.energy(&x);
-                            x[node][k] -= d;
-                            energy
-                        };
-                        let slope = (at(1e-7) - at(-1e-7)) / 2e-7;
-                        assert_relative_eq!(force[k], -slope, epsilon = 1e-6 * scale);
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_tangent_is_symmetric_and_the_slope_of_the_forces() {
-        let shear = shear();
-        for mut x in positions() {
-            let tangent = shear.tangent(&x, None);
-            let found = matrix(|ways| apply(&tangent, ways));
-            let scale = found.abs().max();
-            assert!((found - found.transpose()).abs().max() < 1e-12 * scale);
-            for column in 0..9 {
-                let mut at = |d: f64| {
-                    x[column / 3][column % 3] += d;
-                    let forces = shear.forces(&x);
-                    x[column / 3][column % 3] -= d;
-                    forces
-                };
-                let (before, after) = (at(-1e-8), at(1e-8));
-                for row in 0..9 {
-                    let slope = (before[row / 3][row % 3] - after[row / 3][row % 3]) / 2e-8;
-                    assert_relative_eq!(found[(row, column)], slope, epsilon = 1e-6 * scale);
-                }
-            }
-        }
-    }
-
-    /// The stiffness of steps resists every motion, and at least as much as the cloth does.
-    #[test]
-    fn the_bound_is_positive_and_above_the_tangent() {
-        for load in [None, Some(-2e-3), Some(0.0), Some(5e-3)] {
-            for x in positions() {
-                let tangent = shear().tangent(&x, load);
-                let (root, legs) = tangent.bound();
-                let bound = matrix(|ways| {
-                    let turned = root[0].dot(&ways[0]) + root[1].dot(&ways[1]);
-                    [0, 1].map(|k| root[k] * turned + ways[k] * legs[k])
-                });
-                let scale = bound.abs().max();
-                assert!(bound.symmetric_eigenvalues().min() > -1e-12 * scale);
-                let above = bound - matrix(|ways| apply(&tangent, ways));
-                assert!(above.symmetric_eigenvalues().min() > -1e-12 * scale);
-            }
-        }
-    }
-
-    #[test]
     fn to_turn_and_to_draw_out_along_threads_costs_nothing() {
         let area = 0.5 * LENGTHS[0] * LENGTHS[1];
         for drawn in [[0.0, 0.0], [0.3, 0.0], [0.0, -0.1], [0.4, 0.2]] {
-            assert!(shear().energy(&sheared(drawn, 0.0)) < 1e-28 * G * area);
+            assert!(shear().energy(&[], &sheared(drawn, 0.0)) < 1e-28 * G * area);
         }
         // Flat and turned are the same cloth.
         let flat = [Vec3::zeros(), Vec3::x() * LENGTHS[0], Vec3::y() * LENGTHS[1]];
-        assert!(shear().energy(&flat) < 1e-28 * G * area);
+        assert!(shear().energy(&[], &flat) < 1e-28 * G * area);
     }
 
     #[test]
     fn shear_costs_half_its_stiffness_times_the_angle_squared() {
         for angle in [-1.1, -0.2, 0.01, 0.7, 1.4] {
-            let per_area = shear().energy(&sheared([0.0, 0.2], angle)) / (0.5 * LENGTHS[0] * LENGTHS[1]);
+            let per_area = shear().energy(&[], &sheared([0.0, 0.2], angle)) / (0.5 * LENGTHS[0] * LENGTHS[1]);
             assert_relative_eq!(per_area, 0.5 * G * angle * angle, max_relative = 1e-12);
         }
     }
@@ -334,19 +281,19 @@ mod tests {
     #[test]
     fn a_step_foresees_what_turns_the_legs_and_not_the_square_of_it() {
         let (shear, x) = (shear(), sheared([0.0, 0.0], 0.1));
-        let tangent = shear.tangent(&x, None);
+        let tangent = shear.tangent(&[], &x, None);
         // Along the gradient the angle grows by what the gradient says, to first order.
         let mut to = x.clone();
         to[1] += tangent.turning[0] * 1e-9;
-        let ElementForeseen { load, beyond, energy } = shear.foresee(&x, &to);
-        assert_relative_eq!(energy, shear.energy(&to), max_relative = 1e-12);
+        let ElementForeseen { load, beyond, energy } = shear.foresee(&[], &x, &to);
+        assert_relative_eq!(energy, shear.energy(&[], &to), max_relative = 1e-12);
         let turned = tangent.turning[0].norm_squared() * 1e-9;
         assert_relative_eq!(load, shear.stiffness * (0.1 + turned), max_relative = 1e-12);
         assert!(beyond < 1e-3 * shear.stiffness * turned * turned);
         // Out of the plane it does not change to first order.
         let normal = (x[1] - x[0]).cross(&(x[2] - x[0])).normalize();
         to[1] = x[1] + normal * 2e-3;
-        let ElementForeseen { load, beyond, .. } = shear.foresee(&x, &to);
+        let ElementForeseen { load, beyond, .. } = shear.foresee(&[], &x, &to);
         assert_relative_eq!(load, shear.stiffness * 0.1, max_relative = 1e-12);
         let change = Legs::new(shear.legs(&to)).angle - 0.1;
         assert!(change.abs() > 1e-3);
@@ -359,10 +306,10 @@ mod tests {
         let corner = Vec3::new(0.1, 0.2, 0.3);
         for (u, v) in [(Vec3::x(), Vec3::x()), (Vec3::x(), -Vec3::x()), (Vec3::zeros(), Vec3::y())] {
             let x = vec![corner, corner + u * 0.01, corner + v * 0.02];
-            let tangent = shear().tangent(&x, None);
-            let forces = shear().forces(&x).into_iter().chain(apply(&tangent, [Vec3::x(), Vec3::z()]));
+            let tangent = shear().tangent(&[], &x, None);
+            let forces = shear().forces(&[], &x).into_iter().chain(apply(&tangent, [Vec3::x(), Vec3::z()]));
             assert!(forces.flat_map(|f| [f.x, f.y, f.z]).all(f64::is_finite));
-            assert!(tangent.bound().1.iter().all(|b| b.is_finite()) && shear().energy(&x).is_finite());
+            assert!(tangent.bound().drawn.iter().all(|b| b.is_finite()) && shear().energy(&[], &x).is_finite());
         }
     }
 }

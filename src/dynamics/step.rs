@@ -2,18 +2,13 @@
 
 use std::sync::Arc;
 
-use super::contact_law::Press;
-use super::force::{Forces, free_forces, push};
-use super::foreseen::ElementTangent;
+use super::energy::{Energy, fill};
+use super::force::{Forces, free_forces};
 use super::friction::Grip;
-use super::links::Links;
-use super::model::{Cloth, Element};
-use super::thread::shares;
-use super::touching::Touching;
-use crate::contact::Contact;
-use crate::geometry::{Mat3, Vec3};
+use super::model::Cloth;
+use super::touching::{Pushing, Touching, opening, presses};
+use crate::geometry::{Vec3, sorted_pair};
 use crate::linear::{Cholesky, CholeskyError, PatternError, SymmetricMatrix, SymmetricPattern};
-use crate::parallel::{self, MEDIUM};
 
 /// Why a step cannot be made.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -29,14 +24,6 @@ pub enum StepError {
     Singular {
         /// The node.
         node: usize,
-    },
-    /// The matrix pattern lacks a pair of coupled particles: a bug in toile.
-    #[error("the step's matrix has no place for particles {a} and {b}, which the cloth couples; please report this")]
-    Uncoupled {
-        /// The one.
-        a: usize,
-        /// The other.
-        b: usize,
     },
 }
 
@@ -63,54 +50,11 @@ const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
-    pub(super) links: Arc<Links>,
     matrix: SymmetricMatrix<f32>,
     pub(super) factor: Cholesky<f32>,
-    /// Bound of bending at every node: [`Cloth::bending_bound`] of its edges, N/m.
-    bending: Vec<f64>,
-    /// Start of every node's edges to later nodes in [`Cloth::edges`], and their total.
-    edges: Vec<u32>,
     /// Whether a node is one of [`Cloth::held`].
     is_held: Vec<bool>,
     made: Option<Made>,
-}
-
-/// Contacts in the linear model of a step.
-pub(super) struct Pushing<'a> {
-    /// Loads and slopes.
-    pub(super) presses: &'a [Press],
-    /// The active set: whether a contact pushes at the end of the step.
-    pub(super) active: &'a [bool],
-    /// Friction.
-    pub(super) grips: &'a [Option<Grip>],
-}
-
-impl Pushing<'_> {
-    /// Numbers of the active contacts.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.active.len()).filter(|&k| self.active[k])
-    }
-
-    /// Nodes of the active contacts, sorted. A contact keeps its nodes, but not its number, from one search to the
-    /// next.
-    fn nodes(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
-        sorted(self.numbers().map(|k| contacts[k].nodes).collect())
-    }
-
-    /// Nodes of the active contacts that slide, sorted.
-    fn sliding(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
-        let slides = |k: &usize| self.grips[*k].is_some_and(|g| g.slides);
-        sorted(self.numbers().filter(slides).map(|k| contacts[k].nodes).collect())
-    }
-
-    /// `free` plus the loads and friction of the active contacts.
-    pub(super) fn forces(&self, free: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-        let mut out = free.to_vec();
-        for k in self.numbers() {
-            push(&mut out, &forces.contacts[k], self.presses[k].load, self.grips[k]);
-        }
-        out
-    }
 }
 
 /// The state that a factor was made for.
@@ -133,28 +77,11 @@ impl Stepper {
         let n = cloth.mass.len();
         let is_held = cloth.is_held();
         let is_free = |[a, b]: &[u32; 2]| !is_held[*a as usize] && !is_held[*b as usize];
-        // The wings of a crease are the only nodes of it without a spring between them.
-        let wings = cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]);
-        let graph = cloth.edges.iter().chain(pulls).chain(touching).copied().chain(wings).filter(is_free);
+        // Most of what energies couple are edges.
+        let others = cloth.elastic.pairs().filter(|pair| cloth.edges.binary_search(&sorted_pair(*pair)).is_err());
+        let graph = cloth.edges.iter().chain(pulls).chain(touching).copied().chain(others).filter(is_free);
         let pattern = Arc::new(SymmetricPattern::blocks(n, graph.map(|[a, b]| (a as usize, b as usize)))?);
-        let apart = |&[a, b]: &[u32; 2]| is_free(&[a, b]) && pattern.block_slot(a as usize, b as usize).is_none();
-        for nodes in (0..cloth.elements()).map(|k| cloth.element(k).nodes()) {
-            let pairs = (1..nodes.len()).flat_map(|j| (0..j).map(move |i| [nodes[i], nodes[j]]));
-            if let Some([a, b]) = pairs.clone().find(apart) {
-                return Err(StepError::Uncoupled { a: a as usize, b: b as usize });
-            }
-        }
-        let (mut bending, mut edges) = (vec![0.0; n], vec![0u32; n + 1]);
-        for ([a, b], bound) in cloth.edges.iter().map(|e| e.map(|n| n as usize)).zip(&cloth.bending_bound) {
-            bending[a] += bound;
-            bending[b] += bound;
-            edges[a + 1] += 1;
-        }
-        (0..n).for_each(|i| edges[i + 1] += edges[i]);
         Ok(Self {
-            links: Arc::new(Links::new(cloth)),
-            bending,
-            edges,
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern)?,
             is_held,
@@ -179,7 +106,7 @@ impl Stepper {
         forces: &Forces,
         rounds: usize,
     ) -> Result<Vec<Vec3>, StepError> {
-        let mut free = free_forces(cloth, &self.links, x, forces);
+        let mut free = free_forces(cloth, x, forces);
         for ((f, v), m) in free.iter_mut().zip(velocity).zip(&cloth.mass) {
             *f += v * (m / dt);
         }
@@ -277,96 +204,13 @@ impl Stepper {
     }
 
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces, touching: &Touching) {
-        let bounds = parallel::map(cloth.elements(), MEDIUM, |number| StiffnessBound::new(&cloth.tangent(number, x)));
         let pattern = self.matrix.pattern().clone();
         let coupled = |i: u32, j: u32| pattern.block_slot(i as usize, j as usize).is_some();
-        let pressed = touching.pressed(|node| self.is_held[node as usize], coupled);
-        let (links, bending, edges) = (&self.links, &self.bending, &self.edges);
-        self.matrix.refill(|node, mut column| {
-            column.add_diagonal(&(Mat3::identity() * (cloth.mass[node] / (dt * dt) + bending[node])));
-            for k in edges[node] as usize..edges[node + 1] as usize {
-                column.add_below(cloth.edges[k][1], &(Mat3::identity() * -cloth.bending_bound[k]));
-            }
-            for (number, corner) in links.at(node) {
-                let element = cloth.element(number);
-                for (k, &other) in element.nodes().iter().enumerate() {
-                    if k == corner {
-                        column.add_diagonal(&bounds[number].block(element, k, k));
-                    } else if other as usize > node {
-                        column.add_below(other, &bounds[number].block(element, k, corner));
-                    }
-                }
-            }
-            touching.fill(&pressed, node, &mut column);
-        });
-        self.add_creases(cloth, x);
-        for pull in forces.pulls {
-            let ([a, b], k) = (pull.ends.map(|n| n as usize), Mat3::identity() * pull.stiffness_at(x));
-            self.add(a, a, &k);
-            self.add(b, b, &k);
-            self.add(a, b, &-k);
-        }
+        let contacts = touching.bound(|node| self.is_held[node as usize], coupled);
+        let stitches = forces.stitches();
+        let all = (cloth.elastic.bound(x), (contacts, stitches.bound(x)));
+        fill(&mut self.matrix, |node| cloth.mass[node] / (dt * dt), &all);
     }
-
-    fn add_creases(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        for crease in &cloth.creases {
-            let (root, nodes) = (crease.root(x), crease.nodes.map(|n| n as usize));
-            for i in 0..4 {
-                for j in 0..=i {
-                    self.add(nodes[i], nodes[j], &(root[i] * root[j].transpose()));
-                }
-            }
-        }
-    }
-
-    /// Adds a block of two nodes. The pattern has it unless one of them is held.
-    fn add(&mut self, i: usize, j: usize, block: &Mat3) {
-        if let Some(slot) = self.matrix.pattern().block_slot(i, j) {
-            self.matrix.add_block(slot, block);
-        }
-    }
-}
-
-/// Positive semidefinite bound of an element's stiffness.
-enum StiffnessBound {
-    /// Of a spring or thread: per displacement of one end.
-    Stretch(Mat3),
-    /// Of a shear: [`super::shear::ShearTangent::bound`].
-    Shear([Vec3; 2], [f64; 2]),
-}
-
-impl StiffnessBound {
-    fn new(tangent: &ElementTangent) -> Self {
-        match tangent {
-            ElementTangent::Stretch(tangent) => Self::Stretch(tangent.bound()),
-            ElementTangent::Shear(tangent) => {
-                let (root, drawn) = tangent.bound();
-                Self::Shear(root, drawn)
-            }
-        }
-    }
-
-    /// The block of nodes number `i` (rows) and `j` (columns) of the element.
-    fn block(&self, element: Element, i: usize, j: usize) -> Mat3 {
-        match (self, element) {
-            (Self::Stretch(stiffness), Element::Thread(thread)) => {
-                let shares = thread.shares();
-                stiffness * (shares[i] * shares[j])
-            }
-            (Self::Stretch(stiffness), _) => stiffness * if i == j { 1.0 } else { -1.0 },
-            (Self::Shear(root, drawn), Element::Shear(shear)) => {
-                let (root, [one, other]) = (shear.at_nodes(*root), shear.legs.map(shares));
-                let drawn = drawn[0] * one[i] * one[j] + drawn[1] * other[i] * other[j];
-                root[i] * root[j].transpose() + Mat3::identity() * drawn
-            }
-            (Self::Shear(..), _) => Mat3::zeros(),
-        }
-    }
-}
-
-fn sorted(mut nodes: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
-    nodes.sort_unstable();
-    nodes
 }
 
 /// Entries of two sorted lists that the other does not have.
@@ -382,44 +226,34 @@ fn differences(a: &[[u32; 4]], b: &[[u32; 4]]) -> usize {
     a.len() + b.len() - 2 * common
 }
 
-/// Loads and slopes of all contacts at `x`.
-pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> {
-    parallel::map(forces.contacts.len(), MEDIUM, |k| forces.law.press(cloth, x, &forces.contacts[k]))
-}
-
-/// Growth of a contact's gap by the step `d`, metres.
-pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
-    contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::dynamics::bending::Bending;
     use crate::dynamics::contact_law::{ContactLaw, Hardening};
-    use crate::dynamics::foreseen::Loads;
-    use crate::dynamics::springs::{Spring, Stretch, StretchLaw};
+    use crate::dynamics::elasticity::Elasticity;
+    use crate::dynamics::elements::Elements;
+    use crate::dynamics::energy::Elastic;
+    use crate::dynamics::membrane::Membrane;
+    use crate::dynamics::spring::Spring;
+    use crate::dynamics::stretch::{Stretch, StretchLaw};
 
     /// Two nodes of 1 g with a spring of 10 mm between them.
     fn spring() -> Cloth {
+        let spring = Spring { ends: [0, 1], stretch: Stretch { rest: 0.01, width: 0.01, law: 0 } };
+        let elements = Elements { springs: vec![spring], ..Elements::default() };
         Cloth {
             node_of: vec![0, 1],
             mass: vec![1e-3; 2],
-            triangles: Vec::new(),
-            flat: Vec::new(),
-            piece: Vec::new(),
-            springs: vec![Spring { ends: [0, 1], stretch: Stretch { rest: 0.01, width: 0.01, law: 0 } }],
-            laws: vec![StretchLaw::linear(500.0)],
-            threads: Vec::new(),
-            shears: Vec::new(),
-            bending: Bending::new(2, &[]),
-            creases: Vec::new(),
+            elastic: Elasticity {
+                bending: Bending::new(2, &[]),
+                membrane: Membrane::new(2, elements, vec![StretchLaw::linear(500.0)]),
+                ..Elasticity::default()
+            },
             edges: vec![[0, 1]],
             half_thickness: vec![0.0; 2],
             friction: vec![0.0; 2],
-            bending_bound: vec![0.0],
-            held: Vec::new(),
-            foreseen: Loads::default(),
+            ..Cloth::default()
         }
     }
 
@@ -436,7 +270,9 @@ mod tests {
         let mut stepper = Stepper::new(&cloth, &[], &[]).expect("a stepper");
         let drawn = step(&mut stepper, &cloth);
         // As if a step had foreseen no load at all.
-        cloth.follow(&x, cloth.foresee(&[Vec3::zeros(), Vec3::x() * 0.01], &[Vec3::zeros(), Vec3::x() * 0.01]).loads);
+        let unloaded = [Vec3::zeros(), Vec3::x() * 0.01];
+        let foreseen = cloth.elastic.foresee(&unloaded, &unloaded).loads;
+        cloth.elastic.follow(&x, foreseen);
         let fresh = step(&mut Stepper::new(&cloth, &[], &[]).expect("a stepper"), &cloth);
         assert!(fresh > 1.01 * drawn, "{fresh} against {drawn}: the test would see nothing");
         assert_eq!(step(&mut stepper, &cloth), drawn);

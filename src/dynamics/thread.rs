@@ -8,9 +8,11 @@
 
 use std::sync::Arc;
 
-use super::model::SeamRest;
+use super::element::{shares, span};
+use super::seam_rest::SeamRest;
 use super::shear::Shear;
-use super::springs::Stretch;
+use super::spring::Stretched;
+use super::stretch::Stretch;
 use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::ClothMesh;
@@ -30,27 +32,22 @@ pub struct Thread {
     pub stretch: Stretch,
 }
 
-impl Thread {
-    /// Vector from one end to the other, for positions or displacements of the nodes.
-    pub(super) fn span(&self, x: &[Vec3]) -> Vec3 {
+impl Stretched for Thread {
+    fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    fn shares(&self) -> [f64; 3] {
+        shares(self.weights)
+    }
+
+    fn span(&self, x: &[Vec3]) -> Vec3 {
         span(self.nodes, self.weights, x)
     }
 
-    /// Weight of each node in its span.
-    pub(super) fn shares(&self) -> [f64; 3] {
-        shares(self.weights)
+    fn stretch(&self) -> &Stretch {
+        &self.stretch
     }
-}
-
-/// The span with `weights` of the sides from the first of the `nodes` to the others.
-pub(super) fn span(nodes: [u32; 3], weights: [f64; 2], x: &[Vec3]) -> Vec3 {
-    let [a, b, c] = nodes.map(|n| x[n as usize]);
-    (b - a) * weights[0] + (c - a) * weights[1]
-}
-
-/// Weight of each node in a span with these `weights` of the sides.
-pub(super) fn shares([b, c]: [f64; 2]) -> [f64; 3] {
-    [-b - c, b, c]
 }
 
 /// The two threads of a triangle, as weights of the sides from its first corner, with their rest state.
@@ -141,7 +138,7 @@ pub(super) fn threads(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::springs::StretchLaw;
+    use crate::dynamics::stretch::StretchLaw;
     use approx::assert_relative_eq;
 
     const CORNERS: [[f64; 2]; 3] = [[0.003, 0.001], [0.014, 0.004], [0.006, 0.012]];

@@ -1,18 +1,16 @@
 //! Cloth, body and contact together, advanced step by step.
 
-use std::borrow::Cow;
-
-use rayon::prelude::*;
-
 use super::contact_law::{ContactLaw, Hardening};
 use super::cost::ContactTime;
-use super::force::{Forces, Pull, cloth_forces};
-use super::foreseen::{Foreseen, Loads};
+use super::elasticity::Loads;
+use super::energy::Elastic;
+use super::force::{Forces, cloth_forces};
 use super::friction::Friction;
 use super::model::Cloth;
 use super::proximity::{Proximity, Reach};
+use super::pull::Pull;
 use super::step::{StepError, Stepper};
-use crate::contact::{Collider, Contact, Neighbourhood, Tangle};
+use crate::contact::{Collider, Neighbourhood, Tangle};
 use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 
@@ -28,47 +26,9 @@ const MOMENTUM: f64 = 0.9;
 /// Largest extrapolation of falling cloth, metres.
 const LOOK_AHEAD: f64 = 4e-3;
 /// Rounds of the active set: how often a step is solved to find the contacts that push at its end.
-const ROUNDS: usize = 2;
-/// Line search: a Newton step is halved until the energy falls by this share of the predicted decrease.
-const ENOUGH: f64 = 0.05;
-/// Most halvings of a Newton step in the line search.
-const HALVINGS: usize = 5;
-/// Steps in the memory of the non-monotone line search: a step may raise the energy, but not above the largest value of
-/// so many steps before. Stiff cloth turns along narrow valleys, where monotone steps are much shorter (Grippo,
-/// Lampariello and Lucidi 1986).
-const MEMORY: usize = 2;
-/// Most halvings of a step with the majorant. Stiffening springs have no majorant, but a short enough step lowers the
-/// energy.
-const MORE_HALVINGS: usize = 12;
+pub(super) const ROUNDS: usize = 2;
 /// Most stages, each with its own contacts, in which cloth is carried to given positions.
 const CARRIES: usize = 10;
-/// Energy differences below this are rounding, J.
-const ROUNDING: f64 = 1e-12;
-
-/// Acceptance test of the line search.
-struct Demand {
-    /// Predicted decrease of the energy, J. The share [`ENOUGH`] of it suffices.
-    expected: f64,
-    /// Allowed rise of the energy, J.
-    allowed: f64,
-    /// Most halvings.
-    halvings: usize,
-    /// Whether springs and shear are judged by the loads that the step's linear model predicts, so that their energy
-    /// beyond these loads does not count.
-    foresees: bool,
-}
-
-/// Outcome of a line search.
-struct Descent {
-    target: Vec<Vec3>,
-    /// Decrease of the energy, J.
-    gain: f64,
-    halvings: usize,
-    /// Share of the step that was taken, before the bounds changed it.
-    share: f64,
-    /// Loads that the step predicted, if it does.
-    foresaw: Loads,
-}
 
 /// Outcome of a given motion.
 struct Way {
@@ -83,7 +43,7 @@ pub struct World<'a> {
     /// The cloth.
     pub cloth: Cloth,
     /// Node positions.
-    pub x: Vec<Vec3>,
+    pub(super) x: Vec<Vec3>,
     /// Node velocities, which inertia keeps, m/s.
     pub velocity: Vec<Vec3>,
     /// Friction of the contacts. None while sewing.
@@ -91,39 +51,15 @@ pub struct World<'a> {
     /// Decrease of the energy in every Newton step since the last search for contacts, J.
     pub(super) gains: Vec<f64>,
     /// The last Newton step of every node as proposed, before it was shortened, metres.
-    wished: Vec<Vec3>,
+    pub(super) wished: Vec<Vec3>,
     /// Share of gravity.
     pub gravity: f64,
-    law: ContactLaw,
+    pub(super) law: ContactLaw,
     pub(super) proximity: Proximity<'a>,
     pub(super) stepper: Stepper,
     /// Couplings between layers in `stepper`. `None` while seams are being closed: layers then slide past each other
     /// too fast for couplings to pay.
     pub(super) touching: Option<Vec<[u32; 2]>>,
-}
-
-/// Outcome of a Newton step.
-#[derive(Clone, Copy, Debug)]
-pub struct NewtonStep {
-    /// Largest motion, metres.
-    pub moved: f64,
-    /// Whether the line search shortened it.
-    pub shortened: bool,
-    /// Decrease of the energy over the predicted decrease.
-    pub ratio: f64,
-}
-
-impl NewtonStep {
-    /// Trust region of the next step after one with `radius`, metres. It grows if the model predicted the decrease
-    /// well, and shrinks if it did not.
-    pub fn trust(&self, radius: f64) -> f64 {
-        match self {
-            s if s.shortened => 0.5 * radius,
-            s if s.ratio < 0.25 => 0.7 * radius,
-            s if s.ratio > 0.5 => 1.5 * radius,
-            _ => radius,
-        }
-    }
 }
 
 impl<'a> World<'a> {
@@ -140,7 +76,7 @@ impl<'a> World<'a> {
         law: ContactLaw,
         reach: Reach,
     ) -> Result<Self, StepError> {
-        cloth.follow(&x, Loads::default());
+        cloth.elastic.follow(&x, Loads::default());
         Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
@@ -198,114 +134,6 @@ impl<'a> World<'a> {
         self.move_to(target, FALL, true, Loads::default())
     }
 
-    /// A Newton step with the true stiffness that changes no edge by more than `radius` metres.
-    ///
-    /// A non-monotone line search shortens it. If that fails, a step with the majorant takes its place, shortened until
-    /// the energy falls. Energy of springs and shear beyond the loads that the step predicted does not count, because
-    /// the next step takes it back.
-    ///
-    /// Friction is measured from the last search for contacts. Steps between two searches are iterations towards one
-    /// state of rest. A memory that followed each step would be a ratchet: the errors of steps would drag the garment
-    /// along for hundreds of steps.
-    ///
-    /// # Errors
-    /// [`StepError::Singular`] when a number is not finite.
-    pub fn newton(&mut self, dt: f64, radius: f64) -> Result<NewtonStep, StepError> {
-        self.make_room()?;
-        let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
-        let step = self.stepper.newton(&self.cloth, &self.x, dt, &now, radius)?;
-        self.wished.clone_from(&step.d);
-        let longest = self.proximity.bounds.longest();
-        if step.d.iter().any(|d| d.norm() > longest) {
-            // Freely falling cloth: the next search covers all of it, so that nodes may go further.
-            self.proximity.forget();
-        }
-        let allowed = self.allowed_rise();
-        let demand = Demand { expected: step.gain, allowed, halvings: HALVINGS, foresees: true };
-        let down = self.descend(&step.d, &demand);
-        if step.gain > 0.0 && down.gain >= -ROUNDING - allowed {
-            self.gains.push(down.gain);
-            // Predicted decrease for the share that was taken.
-            let expected = step.gain * down.share * (2.0 - down.share);
-            let ratio = if expected > 0.0 { down.gain / expected } else { 0.0 };
-            let shortened = down.halvings > 0;
-            let moved = self.move_to(down.target, dt, false, down.foresaw)?;
-            return Ok(NewtonStep { moved, shortened, ratio });
-        }
-        self.gains.clear();
-        self.cloth.foreseen = Loads::default();
-        self.stepper.forget();
-        let still = vec![Vec3::zeros(); self.x.len()];
-        let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
-        let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
-        let down = self.descend(&d, &Demand { expected: 0.0, allowed: 0.0, halvings: MORE_HALVINGS, foresees: false });
-        // The bounds may ask for more room than there is. The shortest step then still makes that room.
-        Ok(NewtonStep { moved: self.move_to(down.target, dt, false, Loads::default())?, shortened: true, ratio: 0.0 })
-    }
-
-    /// Searches for contacts if the last proposed step was longer than the nodes' remaining room.
-    fn make_room(&mut self) -> Result<(), StepError> {
-        if self.proximity.bounds.is_short_of_room(&self.x, &self.wished) { self.detect() } else { Ok(()) }
-    }
-
-    /// Allowed rise: the energy stays below its largest value in the last [`MEMORY`] steps, J.
-    fn allowed_rise(&self) -> f64 {
-        let mut fallen = 0.0;
-        self.gains.iter().rev().take(MEMORY).fold(0.0, |most: f64, gain| {
-            fallen += gain;
-            most.max(fallen)
-        })
-    }
-
-    /// Line search: halves the step `d`, clamped by the bounds, until it meets the `demand`.
-    fn descend(&mut self, d: &[Vec3], demand: &Demand) -> Descent {
-        let share = self.proximity.bounds.share(&self.x, d);
-        self.cover(&self.x.iter().zip(d).map(|(x, d)| x + d * share).collect::<Vec<_>>());
-        loop {
-            let down = self.shortened(d, share, demand);
-            if self.cover(&down.target) {
-                return down;
-            }
-        }
-    }
-
-    /// [`World::descend`] with the contacts that are known to matter.
-    fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
-        let forces = self.forces(&[]);
-        let loads = forces.loads(&self.cloth, &self.x);
-        let from = forces.energy(&self.cloth, &self.x, &loads);
-        let mut halvings = 0;
-        loop {
-            let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
-            self.proximity.clamp(&self.x, &mut target);
-            let Foreseen { loads: foresaw, beyond, elements } = if demand.foresees {
-                self.cloth.foresee(&self.x, &target)
-            } else {
-                Foreseen { elements: self.cloth.energy_of_elements(&target), ..Foreseen::default() }
-            };
-            let after = Forces { contacts: &self.contacts_after(&target), ..forces };
-            let gain = from - after.energy_with(&self.cloth, &target, &loads, elements) + beyond;
-            let enough = ENOUGH * share * demand.expected.max(0.0) - demand.allowed;
-            if gain > enough || gain.abs() < ROUNDING || halvings >= demand.halvings {
-                return Descent { target, gain, halvings, share, foresaw };
-            }
-            share *= 0.5;
-            halvings += 1;
-        }
-    }
-
-    /// The contacts by which the line search judges a step to `target`.
-    ///
-    /// Fast hardening contacts turn with the step. On their old planes the corner of a waistband, wedged between two
-    /// edges, slid on by millimetres and pressed with a hundred newtons, step after step. Slow ones stay as they are,
-    /// because newly stitched cloth settles sooner so.
-    fn contacts_after(&self, target: &[Vec3]) -> Cow<'_, [Contact<'a>]> {
-        match self.law.hardening {
-            Hardening::Fast => self.proximity.near_after(target).into(),
-            Hardening::Slow => self.proximity.near().into(),
-        }
-    }
-
     /// The positions nearest to `target` that the bounds allow.
     fn clamped(&mut self, target: &[Vec3]) -> Vec<Vec3> {
         loop {
@@ -318,7 +146,7 @@ impl<'a> World<'a> {
     }
 
     /// Adds the contacts that matter on the way to `target`. Returns whether all were there already.
-    fn cover(&mut self, target: &[Vec3]) -> bool {
+    pub(super) fn cover(&mut self, target: &[Vec3]) -> bool {
         let covered = self.proximity.covers(&self.x, target);
         if !covered && let Some(friction) = &mut self.friction {
             friction.detected(self.proximity.near());
@@ -328,7 +156,7 @@ impl<'a> World<'a> {
 
     /// Moves the nodes to `target` in `dt` seconds. `foresaw` are the loads that the step predicted (empty: none). With
     /// `drag` the memory of friction follows. Returns the largest motion, metres.
-    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Loads) -> Result<f64, StepError> {
+    pub(super) fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Loads) -> Result<f64, StepError> {
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter().zip(&target).zip(&mut self.velocity) {
             let d = t - x;
@@ -336,7 +164,7 @@ impl<'a> World<'a> {
             largest = largest.max(d.norm_squared());
         }
         let last = std::mem::replace(&mut self.x, target);
-        self.cloth.follow(&self.x, foresaw);
+        self.cloth.elastic.follow(&self.x, foresaw);
         if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }
@@ -399,18 +227,39 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
-    /// Tells the world that [`World::x`] was changed from outside. The change gives no velocity, drags no contact
-    /// along, and turns no fold by more than half a turn.
+    /// Node positions.
+    pub fn x(&self) -> &[Vec3] {
+        &self.x
+    }
+
+    /// The node positions, when nothing moves any more.
+    pub fn into_x(self) -> Vec<Vec3> {
+        self.x
+    }
+
+    /// Puts the nodes at `x`, one position per node. That gives no velocity, drags no contact along, and turns no fold
+    /// by more than half a turn.
     ///
     /// # Errors
     /// As [`Stepper::new`].
-    pub fn displaced(&mut self) -> Result<(), StepError> {
+    pub fn displace(&mut self, x: Vec<Vec3>) -> Result<(), StepError> {
+        self.x = x;
         self.velocity.fill(Vec3::zeros());
-        self.cloth.follow(&self.x, Loads::default());
+        self.cloth.elastic.follow(&self.x, Loads::default());
         if let Some(friction) = &mut self.friction {
             friction.displaced(&self.x);
         }
         self.detect()
+    }
+
+    /// Moves the `nodes` by `way`, metres, as a hand that holds them: contacts follow, and friction drags.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn shift(&mut self, nodes: &[usize], way: Vec3) -> Result<(), StepError> {
+        let mut target = self.x.clone();
+        nodes.iter().for_each(|&node| target[node] += way);
+        self.move_to(target, FALL, false, Loads::default()).map(|_| ())
     }
 
     /// Switches friction on, with at least this tangential `stiffness` per contact, N/m.
@@ -424,35 +273,6 @@ impl<'a> World<'a> {
         self.stepper.forget();
         // Its energy is another one now.
         self.gains.clear();
-    }
-
-    /// Whether the body cuts an edge of the cloth or pokes through a triangle.
-    pub fn is_cut(&self) -> bool {
-        let (body, cloth) = (self.proximity.body, &self.cloth);
-        let cuts = |[a, b]: &[u32; 2]| body.is_in_the_way(self.x[*a as usize], self.x[*b as usize]);
-        let pokes = |nodes: &[u32; 3]| body.poking(nodes.map(|n| self.x[n as usize])).is_some();
-        cloth.edges.par_iter().any(cuts) || cloth.triangles.par_iter().any(pokes)
-    }
-
-    /// Number of edges and triangles that the body cuts, and per node the mean direction off the body of those at it.
-    pub fn ways_off(&self) -> (usize, Vec<Vec3>) {
-        let (body, cloth) = (self.proximity.body, &self.cloth);
-        let at = |n: u32| self.x[n as usize];
-        let cut = |e: &[u32; 2]| body.way_off(at(e[0]), at(e[1]));
-        let poked = |t: &[u32; 3]| body.poking(t.map(at));
-        let of_edges: Vec<Option<Vec3>> = cloth.edges.par_iter().map(cut).collect();
-        let of_triangles: Vec<Option<Vec3>> = cloth.triangles.par_iter().map(poked).collect();
-        let edges = cloth.edges.iter().map(<[u32; 2]>::as_slice).zip(of_edges);
-        let cuts = edges.chain(cloth.triangles.iter().map(<[u32; 3]>::as_slice).zip(of_triangles));
-        let (mut count, mut sum) = (0, vec![(Vec3::zeros(), 0.0); self.x.len()]);
-        for (nodes, way) in cuts.filter_map(|(nodes, way)| Some((nodes, way?))) {
-            count += 1;
-            for &n in nodes {
-                let (to, ways) = &mut sum[n as usize];
-                (*to, *ways) = (*to + way, *ways + 1.0);
-            }
-        }
-        (count, sum.into_iter().map(|(to, ways)| to / f64::max(ways, 1.0)).collect())
     }
 
     /// Passes new contacts on: to friction, and to the matrix pattern if layers have come near each other.
@@ -476,14 +296,14 @@ impl<'a> World<'a> {
         self.forces(&[]).energy(&self.cloth, &self.x, &vec![0.0; self.proximity.near().len()])
     }
 
-    fn forces<'b>(&'b self, pulls: &'b [Pull]) -> Forces<'b> {
+    pub(super) fn forces<'b>(&'b self, pulls: &'b [Pull]) -> Forces<'b> {
         forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref())
     }
 
     /// Sum of all forces on every node, N. At a free node it is the unbalanced force, at a held node the reversed
     /// reaction.
     pub fn unbalanced(&self) -> Vec<Vec3> {
-        cloth_forces(&self.cloth, &self.stepper.links, &self.x, &self.forces(&[]))
+        cloth_forces(&self.cloth, &self.x, &self.forces(&[]))
     }
 
     /// Forces of the body on every node, N: the normal forces, and friction.
@@ -528,6 +348,11 @@ impl<'a> World<'a> {
         self.proximity.tangles(&self.x)
     }
 
+    /// Places where the cloth would pass through itself with its nodes at `x`.
+    pub fn tangles_at(&mut self, x: &[Vec3]) -> Vec<Tangle> {
+        self.proximity.tangles(x)
+    }
+
     /// Sets the nodes that may pass through one another. An empty list means none.
     ///
     /// # Errors
@@ -539,7 +364,7 @@ impl<'a> World<'a> {
 }
 
 /// The forces, built from parts of the world so that the stepper can be borrowed mutably beside them.
-fn forces<'b>(
+pub(super) fn forces<'b>(
     gravity: f64,
     proximity: &'b Proximity,
     law: ContactLaw,

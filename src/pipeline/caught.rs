@@ -1,50 +1,14 @@
 //! A seam that cannot close because an arm or a leg is between its edges.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
 
 use super::job::Job;
+use super::obstacle::Caught;
 use crate::geometry::{Vec3, pierces};
-use crate::mannequin::{BodyPart, HAND_OR_FOOT, PartKind};
+use crate::mannequin::{BodyPart, HAND_OR_FOOT};
 use crate::mesh::Stitches;
 use crate::report::opening_names;
 use crate::sew::SewError;
-
-/// A seam that stayed open round an arm or a leg.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "{}: seam '{seam}' is still open by {gap_mm:.1} mm: the {} is between its two edges{}; take a body {}, or make \
-     '{}' and '{}' less wide, so that they start beside it and not round it",
-    file.display(), limb.name(), hung(opening.as_deref()), apart(*limb), pieces[0], pieces[1]
-)]
-pub struct Caught {
-    /// The garment file.
-    pub file: PathBuf,
-    /// The seam.
-    pub seam: String,
-    /// Its widest gap, mm.
-    pub gap_mm: f64,
-    /// The arm or leg.
-    pub limb: PartKind,
-    /// The opening at the end of the seam that is nearer to the hand or foot.
-    pub opening: Option<String>,
-    /// The pieces that the seam joins.
-    pub pieces: [String; 2],
-}
-
-/// The opening that hangs on the hand or foot, in words.
-fn hung(opening: Option<&str>) -> String {
-    opening.map_or_else(String::new, |opening| format!(", and the opening '{opening}' hangs on it"))
-}
-
-/// Advice on a body with room round a limb.
-fn apart(limb: PartKind) -> &'static str {
-    if limb.is_leg() {
-        "with its legs further apart (--body)"
-    } else {
-        "with its arms further from the trunk (--body; `abduction` in a mannequin's file)"
-    }
-}
 
 impl Job {
     /// The obstacle of a seam that stayed open with the particles at `at`, if a limb is between its edges.

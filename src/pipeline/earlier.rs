@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{Closed, is_whole};
-use super::run::Run;
 use crate::contact::Collider;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::input::bytes;
@@ -31,10 +30,10 @@ const OUTSIDE: f64 = 1e-3;
 /// The result of an earlier run, to go on from.
 #[derive(Clone, Debug)]
 pub struct Earlier {
-    folder: PathBuf,
-    mesh: EarlierMesh,
+    pub(super) folder: PathBuf,
+    pub(super) mesh: EarlierMesh,
     /// Positions of its particles, metres.
-    at: Vec<Vec3>,
+    pub(super) at: Vec<Vec3>,
 }
 
 /// A garment that goes on from an earlier one.
@@ -100,23 +99,6 @@ impl Earlier {
             }
         }
         Ok(Self { folder: folder.to_owned(), mesh, at })
-    }
-
-    /// The state that a run of this process has reached: the garment draped, or only sewn. `None` before sewing.
-    pub fn of(run: &Run) -> Option<Self> {
-        let mesh = &run.job.mesh;
-        let piece = |p: &PieceMesh| EarlierPiece {
-            name: p.name.clone(),
-            triangles: p.triangles.clone(),
-            edges: p.edges.iter().map(|e| (e.name.clone(), e.particles.clone())).collect(),
-        };
-        let earlier = EarlierMesh {
-            flat: mesh.flat.clone(),
-            triangles: mesh.triangles.clone(),
-            pieces: mesh.pieces.iter().map(piece).collect(),
-            spacing: mesh.spacing,
-        };
-        Some(Self { folder: PathBuf::new(), mesh: earlier, at: run.last()?.to_vec() })
     }
 
     /// Where the earlier cloth has the particles of `mesh`: [`EarlierMesh::carry`].

@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::across::Across;
-use super::caught::Caught;
-use super::draft::DraftError;
-use super::too_small::TooSmall;
+use super::draft_error::DraftError;
+use super::obstacle::{Across, Caught, TooSmall};
 use crate::drape::DrapeError;
 use crate::fabric::FabricError;
 use crate::flatten::FlattenError;

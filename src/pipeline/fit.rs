@@ -1,6 +1,6 @@
 //! Whether a garment suits its body before cloth moves: its size, and where its pieces start.
 
-use super::across::in_one_place;
+use super::one_place::in_one_place;
 use super::settling::{WordShown, settling};
 use crate::contact::Collider;
 use crate::geometry::{Vec2, Vec3, box_of, range_of};

@@ -6,7 +6,8 @@
 
 use super::earlier::Earlier;
 use super::error::PipelineError;
-use super::job::{Job, Overrides};
+use super::job::Job;
+use super::overrides::Overrides;
 use super::run::{Progress, Run};
 use crate::contact::closest_on_triangle;
 use crate::flatten;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::cloth::Fabrics;
 use super::error::PipelineError;
 use super::fit;
-use super::job::{Overrides, SPACING};
+use super::overrides::{Overrides, SPACING};
 use crate::fabric::{Fabric, FabricError};
 use crate::geometry::MM;
 use crate::io::body::{Body, BodyError, load_body_of};

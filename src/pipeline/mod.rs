@@ -15,6 +15,7 @@ mod arrays;
 mod caught;
 mod cloth;
 mod draft;
+mod draft_error;
 mod earlier;
 mod error;
 mod first_look;
@@ -27,8 +28,12 @@ mod levels;
 mod live;
 mod maps;
 mod material;
+mod obstacle;
+mod one_place;
+mod overrides;
 mod pattern_picture;
 mod problems;
+mod result_file;
 mod results;
 mod run;
 mod saved;
@@ -41,20 +46,22 @@ mod too_small;
 pub use crate::io::result_names::*;
 use crate::report::AtRest;
 pub use crate::sew::SewError;
-pub use across::Across;
 pub use arrays::Arrays;
-pub use caught::Caught;
-pub use draft::{DraftError, Drafted, DraftedEase, DraftedPiece, draft};
+pub use draft::{Drafted, DraftedEase, DraftedPiece, draft};
+pub use draft_error::DraftError;
 pub use earlier::{Earlier, EarlierFiles};
 pub use error::PipelineError;
 pub use form::{FormAsked, NewPattern};
 pub use glimpse::{Glimpse, Reached, Watch};
-pub use job::{Given, Job, Overrides, inputs, read, read_variant};
+pub use job::{Job, inputs, read, read_variant};
 pub use judged::{Judged, judge};
 pub use material::{Checked, check, check_text, check_variant, read_text};
+pub use obstacle::{Across, Caught, TooSmall};
+pub use overrides::{Given, Overrides};
 pub use pattern_picture::pattern_picture;
 pub use problems::{ResultProblem, problems};
-pub use results::{Color, PictureOptions, ResultFile, json_text};
+pub use result_file::{ResultFile, json_text};
+pub use results::{Color, PictureOptions};
 pub use run::{Progress, Run};
 pub use settling::WordShown;
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, start_picture};
@@ -62,7 +69,6 @@ pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FailedReport, FlatCorners,
     FlatSurface, HalvingReport, Limit, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces, flatten_surface,
 };
-pub use too_small::TooSmall;
 
 /// Bounds of rest of a draped garment.
 pub const AT_REST: AtRest = AtRest { drift: 1e3 * crate::drape::DRIFT, residual: crate::drape::RESIDUAL };

@@ -2,6 +2,7 @@
 
 use super::error::PipelineError;
 use super::job::Job;
+use super::result_file::{ResultFile, json_text};
 use super::run::Run;
 use crate::dynamics::identity_nodes;
 use crate::geometry::Vec3;
@@ -14,9 +15,6 @@ use crate::io::svg_write::pattern_svg;
 use crate::pattern::Notch;
 use crate::picture::{Dressed, PictureError, PictureLayout, Scale, Scene, Turning, draw, draw_turning};
 use crate::report::{Report, page, vertex_strain};
-
-/// A file's name and contents.
-pub type ResultFile = (&'static str, Vec<u8>);
 
 /// Meaning of the picture's colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -150,14 +148,4 @@ impl Run<'_> {
             Color::Pressure => self.pressure(at).map(|values| (values, Scale::Pressure)),
         }
     }
-}
-
-/// A report as JSON text with a line feed at its end.
-///
-/// # Errors
-/// When a value has no JSON.
-pub fn json_text(report: &impl serde::Serialize) -> Result<String, PipelineError> {
-    let mut text = serde_json::to_string_pretty(report)?;
-    text.push('\n');
-    Ok(text)
 }

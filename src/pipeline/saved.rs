@@ -1,6 +1,6 @@
 //! Taking up an earlier run from its `sewn.obj` or `garment.obj`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::earlier::{Earlier, EarlierFiles};
 use super::error::PipelineError;
@@ -8,7 +8,27 @@ use super::job::Job;
 use super::run::Run;
 use crate::geometry::{MM, Vec3};
 use crate::io::obj_read::read_obj;
+use crate::mesh::{EarlierMesh, EarlierPiece, PieceMesh};
 use crate::verify::Welded;
+
+impl Earlier {
+    /// The state that a run of this process has reached: the garment draped, or only sewn. `None` before sewing.
+    pub fn of(run: &Run) -> Option<Self> {
+        let mesh = &run.job.mesh;
+        let piece = |p: &PieceMesh| EarlierPiece {
+            name: p.name.clone(),
+            triangles: p.triangles.clone(),
+            edges: p.edges.iter().map(|e| (e.name.clone(), e.particles.clone())).collect(),
+        };
+        let earlier = EarlierMesh {
+            flat: mesh.flat.clone(),
+            triangles: mesh.triangles.clone(),
+            pieces: mesh.pieces.iter().map(piece).collect(),
+            spacing: mesh.spacing,
+        };
+        Some(Self { folder: PathBuf::new(), mesh: earlier, at: run.last()?.to_vec() })
+    }
+}
 
 impl<'a> Run<'a> {
     /// A run that goes on from the result of an earlier one in `folder`: of the same garment, or of one whose pieces,

@@ -1,8 +1,7 @@
 //! A garment that cannot be put on: its seams close only if its cloth tears.
 
-use std::path::PathBuf;
-
 use super::job::Job;
+use super::obstacle::TooSmall;
 use crate::fabric::Fabric;
 use crate::geometry::Vec3;
 use crate::report::extensions;
@@ -13,29 +12,6 @@ const BEFORE_IT_TEARS: f64 = 0.2;
 
 /// Names of the directions of [`extensions`].
 const THREADS: [&str; 2] = ["warp", "weft"];
-
-/// A piece that would have to stretch by more than its cloth can.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "{}: piece '{piece}' is too small for the body: its seams close only if it is drawn out by {by:.0} % along its \
-     {thread}, on average, and {fabric} gives no more than {gives:.0} %; make it larger there, or take a cloth that \
-     gives more",
-    file.display()
-)]
-pub struct TooSmall {
-    /// The garment file.
-    pub file: PathBuf,
-    /// The piece.
-    pub piece: String,
-    /// `warp` or `weft`.
-    pub thread: &'static str,
-    /// Its mean strain along that, percent.
-    pub by: f64,
-    /// The piece's fabric.
-    pub fabric: String,
-    /// Strain at which that is taken to tear, percent.
-    pub gives: f64,
-}
 
 impl Job {
     /// The piece that is stretched furthest beyond its cloth's range, with the particles of the sewn garment `at`.

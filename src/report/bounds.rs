@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::closures::APART;
-use super::fit::{Girth, hems};
+use super::fit::hems;
+use super::fit_report::Girth;
 use super::schema::{ClosureReport, Crossing, FaultKind, PieceReport, Quartet, Report, Worn};
 use crate::geometry::MM;
 use crate::pattern::{Bound, Garment, Test, belongs_to, is_girth, walk};

@@ -3,11 +3,11 @@
 
 use std::f64::consts::PI;
 
-use super::measure::Measured;
+use super::measured::Measured;
 use super::openings::SewnRim;
 use super::ring::{FlatCloth, FlatRing};
 use super::schema::{Fault, FaultKind};
-use super::worn::Seen;
+use super::seen::Seen;
 use crate::geometry::{DisjointSets, MM, range_of};
 use crate::mannequin::PartKind;
 use crate::pattern::{Place, TrunkLevel};

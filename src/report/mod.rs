@@ -5,15 +5,18 @@
 //! [`page`] shows them in a browser. Lengths inside are metres. A [`Report`] holds millimetres, square millimetres,
 //! fractions and seconds, as the file does.
 
+mod bands;
 mod bounds;
 mod bunched;
 mod closures;
 mod crossings;
 mod errors;
 mod fit;
+mod fit_report;
 mod form;
 mod laps;
 mod measure;
+mod measured;
 mod misworn;
 mod openings;
 mod page;
@@ -21,6 +24,7 @@ mod rest;
 mod rim;
 mod ring;
 mod schema;
+mod seen;
 mod statistics;
 mod strain;
 mod stretched;
@@ -29,11 +33,14 @@ mod table;
 mod tight;
 mod worn;
 
+pub use bands::{Band, Bands};
 pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{CrossingsSeen, look};
-pub use fit::{Band, Bands, Finished, Fit, Girth, Pressure, WornLength, pressure};
+pub use fit::pressure;
+pub use fit_report::{Finished, Fit, Girth, Pressure, WornLength};
 pub use form::{Apart, FormReport, LengthChange};
-pub use measure::{Measured, measure};
+pub use measure::measure;
+pub use measured::Measured;
 pub use openings::opening_names;
 pub use page::{PageParts, page, page_parts};
 pub use rest::{AtRest, Restless, restless};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::Fit;
+use super::fit_report::Fit;
 use super::form::FormReport;
 
 /// A whole report. Values of stages that did not run are `null`.

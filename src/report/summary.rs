@@ -1,6 +1,7 @@
 //! The verdict on a run in a few lines, for a maker.
 
-use super::fit::{Girth, loosest, tightest};
+use super::fit::{loosest, tightest};
+use super::fit_report::Girth;
 use super::form::FormReport;
 use super::schema::{ClosureReport, PieceReport, Report, Stage, Worn};
 use crate::pattern::written_edge;

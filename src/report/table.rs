@@ -1,6 +1,7 @@
 //! The report for people.
 
-use super::fit::{Band, Fit};
+use super::bands::Band;
+use super::fit_report::Fit;
 use super::schema::{ClosureReport, ContactReport, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
 
 /// Shown where there is no value.

@@ -1,16 +1,16 @@
 //! The rows of openings: the body part that passes through each, its earlier places, and its fault.
 
-use super::measure::Measured;
-use super::misworn::Wear;
-use super::openings::{SewnRim, flaps, opening_names};
-use super::schema::{Worn, WornBefore};
 use std::collections::HashMap;
 
-use crate::geometry::{MM, Vec3, range_of, sorted_pair};
-use crate::mannequin::Mannequin;
+use super::measured::Measured;
+use super::misworn::Wear;
+use super::openings::{SewnRim, flaps, opening_names};
+use super::schema::Worn;
+use super::seen::Seen;
+use crate::geometry::{MM, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::written_names;
-use crate::verify::{Passage, Through, Welded, past_end, worn};
+use crate::verify::Welded;
 
 /// Rows of the openings of the garment `welded`, its latest state. Edges of flaps are left out.
 pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[SewnRim]) -> Vec<Worn> {
@@ -61,47 +61,4 @@ fn length_flat(opening: &SewnRim, welded: &Welded, drawn: &HashMap<[u32; 2], f64
         drawn.get(&sorted_pair([a, b])).copied().unwrap_or(worn)
     };
     opening.ring.iter().zip(next).map(step).sum()
-}
-
-/// An opening in one state of the garment, metres.
-#[derive(Clone, Debug)]
-pub(super) struct Seen {
-    pub(super) passage: Passage,
-    /// Distance past the end of the arm or leg that it is round.
-    pub(super) past_end: Option<f64>,
-    length: f64,
-    /// Mean height of its rim.
-    pub(super) height: f64,
-    /// Height of the highest point of its rim above the lowest.
-    level: f64,
-}
-
-impl Seen {
-    fn new(openings: &[&SewnRim], welded: &Welded, body: &Mannequin) -> Vec<Self> {
-        let rims: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
-        let seen = |(rim, passage): (&Vec<Vec3>, Passage)| Self {
-            past_end: passage.through.and_then(|part| past_end(rim, part, body)),
-            passage,
-            length: (0..rim.len()).map(|k| (rim[(k + 1) % rim.len()] - rim[k]).norm()).sum(),
-            height: rim.iter().map(|p| p.y).sum::<f64>() / rim.len() as f64,
-            level: {
-                let [low, high] = range_of(rim.iter().map(|p| p.y));
-                high - low
-            },
-        };
-        rims.iter().zip(worn(&rims, body)).map(seen).collect()
-    }
-
-    /// Position on its body part: along an arm or a leg, otherwise its height.
-    pub(super) fn along(&self) -> f64 {
-        self.past_end.map_or(self.height, |past| -past)
-    }
-
-    fn part(&self) -> Option<String> {
-        self.passage.through.map(|part: Through| part.name().into())
-    }
-
-    fn before(&self) -> WornBefore {
-        WornBefore { body_part: self.part(), past_end: self.past_end.map(|past| past * MM), height: self.height * MM }
-    }
 }

@@ -152,10 +152,10 @@ pub fn sew(
         steps += closing.close(&mut world, stage, options.max_steps - steps, &mut tell)?;
     }
     steps += closing.do_up(&mut world, options.max_steps - steps)?;
-    let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
+    let (gaps, nodes) = (stitching.gaps(world.x()), stitching.welded(world.x()));
     if gaps.iter().any(|gap| *gap > options.tolerance) {
         let tangles = world.tangles().len();
-        return Ok(Sewn { stitching, nodes, gaps, steps, tangles, is_cut: false, open: Some(world.x) });
+        return Ok(Sewn { stitching, nodes, gaps, steps, tangles, is_cut: false, open: Some(world.into_x()) });
     }
     let world = sewn_world(cut, body, &stitching, nodes)?;
     let mut sewn = settled(world, stitching, gaps, Calm::TO_FALL, &mut || progress(1.0))?;
@@ -225,14 +225,14 @@ impl<'a> Closing<'a> {
         let mut wait = Wait { least: f64::INFINITY, since: 0 };
         let mut made = 0;
         while made < max_steps && !(self.harder[stage] == HARDER && wait.is_over(made)) {
-            let gaps = self.stitching.gaps(&world.x);
+            let gaps = self.stitching.gaps(world.x());
             let widest = self.widest(&gaps, stage);
             if widest <= self.tolerance {
                 return Ok(made);
             }
             wait.look(widest, made);
             if best.as_ref().is_none_or(|best| widest < best.0) {
-                best = Some((widest, world.x.clone()));
+                best = Some((widest, world.x().to_vec()));
             }
             let first = *first.get_or_insert(widest);
             history.push(widest);
@@ -255,10 +255,9 @@ impl<'a> Closing<'a> {
             made += 1;
         }
         if let Some((widest, x)) = best
-            && widest < self.widest(&self.stitching.gaps(&world.x), stage)
+            && widest < self.widest(&self.stitching.gaps(world.x()), stage)
         {
-            world.x = x;
-            world.displaced()?;
+            world.displace(x)?;
         }
         Ok(made)
     }
@@ -269,12 +268,12 @@ impl<'a> Closing<'a> {
     fn do_up(&mut self, world: &mut World, max_steps: usize) -> Result<usize, SewError> {
         let last = self.harder.len().saturating_sub(1);
         let is_open = |own: &Self, x: &[Vec3]| own.widest(&own.stitching.gaps(x), last) > own.tolerance;
-        let (mut steps, mut history, closed) = (0, Vec::new(), world.x.clone());
+        let (mut steps, mut history, closed) = (0, Vec::new(), world.x().to_vec());
         if self.tacks.is_empty() || is_open(self, &closed) {
             return Ok(0);
         }
         while steps < max_steps {
-            let apart = self.tacks.iter().map(|[a, b]| (world.x[*a as usize] - world.x[*b as usize]).norm());
+            let apart = self.tacks.iter().map(|[a, b]| (world.x()[*a as usize] - world.x()[*b as usize]).norm());
             let widest = apart.fold(0.0, f64::max);
             history.push(widest);
             let is_stuck = is_stuck(&history, STUCK);
@@ -289,9 +288,8 @@ impl<'a> Closing<'a> {
             steps += 1;
         }
         steps += self.close(world, last, max_steps - steps, &mut |_| {})?;
-        if is_open(self, &world.x) {
-            world.x = closed;
-            world.displaced()?;
+        if is_open(self, world.x()) {
+            world.displace(closed)?;
         }
         Ok(steps)
     }
@@ -336,7 +334,7 @@ fn is_stuck(history: &[f64], steps: usize) -> bool {
 
 /// These nodes and one ring round them.
 fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
-    let mut core = vec![false; world.x.len()];
+    let mut core = vec![false; world.x().len()];
     nodes.for_each(|n| core[*n as usize] = true);
     world.cloth.with_neighbours(&core)
 }
@@ -368,7 +366,7 @@ fn settled(
 ) -> Result<Sewn, SewError> {
     let (steps, tangles) = settle(&mut world, calm, told)?;
     let is_cut = world.is_cut();
-    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, is_cut, open: None })
+    Ok(Sewn { nodes: world.into_x(), stitching, gaps, steps, tangles, is_cut, open: None })
 }
 
 #[cfg(test)]

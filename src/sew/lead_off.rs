@@ -13,15 +13,13 @@ const ROUNDS: usize = 100;
 /// stays.
 ///
 /// # Errors
-/// As [`World::displaced`].
+/// As [`World::displace`].
 pub(crate) fn lead_off(world: &mut World) -> Result<(), StepError> {
-    let (from, tangled) = (world.x.clone(), world.tangles().len());
-    let shift = |world: &mut World, ways: Vec<Vec3>, pull: f64| {
-        world.x.iter_mut().zip(&ways).for_each(|(x, way)| *x += way * pull);
+    let tangled = world.tangles().len();
+    let shift = |_: &World, x: &mut [Vec3], ways: Vec<Vec3>, pull: f64| {
+        x.iter_mut().zip(&ways).for_each(|(x, way)| *x += way * pull);
     };
-    lead(world, ROUNDS, |world| world.ways_off(), shift);
-    if world.tangles().len() > tangled {
-        world.x = from;
-    }
-    world.displaced()
+    let (_, x) = lead(world, ROUNDS, |world, x| world.ways_off(x), shift);
+    let stays = world.tangles_at(&x).len() > tangled;
+    world.displace(if stays { world.x().to_vec() } else { x })
 }

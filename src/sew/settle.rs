@@ -104,7 +104,7 @@ pub fn join(
     stitching: &Stitching,
     particles: &[Vec3],
 ) -> Result<Option<Vec<Vec3>>, StepError> {
-    Ok(joined(cut, body, stitching, particles)?.map(|world| world.x))
+    Ok(joined(cut, body, stitching, particles)?.map(World::into_x))
 }
 
 /// [`join`], as a world that goes on from there.

@@ -65,7 +65,7 @@ impl ClampedStrip {
         let mut world = self.sheet.hang(cloth, x, &bench)?;
         settle(&mut world, self.spacing, STILL * self.length)?;
         let end = self.sheet.particles(|p| p.y > self.length + self.spacing);
-        Ok(end.iter().map(|&n| world.x[n as usize]).sum::<Vec3>() / end.len() as f64)
+        Ok(end.iter().map(|&n| world.x()[n as usize]).sum::<Vec3>() / end.len() as f64)
     }
 }
 
@@ -219,7 +219,7 @@ pub(super) fn roll(sample: &Sample) -> Result<Outcome, SpecimenError> {
             let turn = p.dot(&round) / RADIUS;
             Vec3::new(RADIUS * turn.sin(), RADIUS * turn.cos(), p.dot(&along))
         });
-        let rigidity = 2.0 * cloth.bending.energy(&x) * (RADIUS / SIDE).powi(2);
+        let rigidity = 2.0 * cloth.elastic.bending.energy(&x) * (RADIUS / SIDE).powi(2);
         let known = (root_warp * angle.cos().powi(2) + root_weft * angle.sin().powi(2)).powi(2);
         BenchFigure {
             test: "roll",

@@ -154,17 +154,22 @@ pub fn drape(sample: &Sample, spacing: f64, lay: &Lay) -> Result<DrapedDisc, Spe
     world.grip(GRIP);
     fall(&mut world)?;
     settle(&mut world, spacing, STILL)?;
-    let shadow = Shadow::of(&world.x, &sheet.mesh.triangles);
+    let shadow = Shadow::of(world.x(), &sheet.mesh.triangles);
     let area = |r: f64| PI * r * r;
     let coefficient = (shadow.area() - area(PEDESTAL)) / (area(DISC) - area(PEDESTAL));
-    let folds = folds(&world.x, &sheet.mesh.triangles);
-    Ok(DrapedDisc { shadow, coefficient, folds, cloth: TriMesh { vertices: world.x, triangles: sheet.mesh.triangles } })
+    let folds = folds(world.x(), &sheet.mesh.triangles);
+    Ok(DrapedDisc {
+        shadow,
+        coefficient,
+        folds,
+        cloth: TriMesh { vertices: world.into_x(), triangles: sheet.mesh.triangles },
+    })
 }
 
 fn fall(world: &mut World) -> Result<(), SpecimenError> {
-    let mut last = world.x.clone();
+    let mut last = world.x().to_vec();
     for _ in 0..FALLING {
-        let now = world.x.clone();
+        let now = world.x().to_vec();
         world.fall(&last)?;
         last = now;
     }

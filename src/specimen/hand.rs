@@ -107,7 +107,7 @@ fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     let mut world = sheet.hang(sheet.cloth(clamped), sheet.placed(place), &plate)?;
     world.grip(GRIP);
     settle(&mut world, FINE, STILL)?;
-    let height = world.x.iter().map(|p| p.y - lift).fold(0.0, f64::max);
+    let height = world.x().iter().map(|p| p.y - lift).fold(0.0, f64::max);
     let released = let_go(&sheet, world, &plate)?;
     Ok([height, covered(&released, &sheet.mesh.triangles) / (SIZE[0] * SIZE[1])])
 }
@@ -129,10 +129,10 @@ fn raised() -> Vec<[f64; 2]> {
 
 /// Shape of the cloth at rest when only the plate supports it.
 fn let_go(sheet: &SpecimenSheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, SpecimenError> {
-    let mut world = sheet.hang(sheet.cloth(|_| false), folded.x, plate)?;
+    let mut world = sheet.hang(sheet.cloth(|_| false), folded.into_x(), plate)?;
     world.grip(GRIP);
     settle(&mut world, FINE, STILL)?;
-    Ok(world.x)
+    Ok(world.into_x())
 }
 
 /// Area within the rim of a cloth seen from above, m². Parts that are turned over count negatively.

@@ -177,11 +177,11 @@ pub(super) fn settle(world: &mut World, spacing: f64, still: f64) -> Result<usiz
     let [mut trust, least, most] = TRUST.map(|t| t * spacing);
     let mut moved = f64::INFINITY;
     for step in 0..MOST {
-        let before = world.x.clone();
+        let before = world.x().to_vec();
         for _ in 0..STRETCH {
             trust = world.newton(STEP, trust)?.trust(trust).clamp(least, most);
         }
-        moved = before.iter().zip(&world.x).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        moved = before.iter().zip(world.x()).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
         if moved <= still {
             return Ok((step + 1) * STRETCH);
         }

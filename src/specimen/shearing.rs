@@ -71,7 +71,7 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
             test: "bias extension",
             what: format!("shear in the middle at {} % (trellis {:.2}°)", 100.0 * extended, trellis.to_degrees()),
             unit: "°",
-            measured: shear_in_the_middle(&sheet, &drawn.x).to_degrees(),
+            measured: shear_in_the_middle(&sheet, drawn.x()).to_degrees(),
             known: if extended == EXTENDED[0] { known } else { Known::Nothing },
         });
     }

@@ -43,7 +43,7 @@ pub(super) fn pulled(sample: &Sample) -> Result<Outcome, SpecimenError> {
         for &(strain, _) in curve_of(fabric, angle).points.iter().filter(|p| p.1 > 0.0) {
             let world = drawn_out(&sheet, length, strain, &bench, STILL)?;
             let jaw = sheet.particles(|p| p.y > length - 0.5 * SPACING);
-            let strain = strain_in_the_middle(&sheet, &world.x);
+            let strain = strain_in_the_middle(&sheet, world.x());
             out.push(BenchFigure {
                 test: "pulled strip",
                 what: format!("{way}, load at {:.2} %", 100.0 * strain),
@@ -66,7 +66,7 @@ pub(super) fn hanging(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let mut world = sheet.hang(cloth, sheet.placed(|p| Vec3::new(p.x, -p.y, 0.0)), &bench)?;
         settle(&mut world, SPACING, STILL)?;
         let end = sheet.particles(|p| p.y > length - 0.5 * SPACING);
-        let fall = -end.iter().map(|&n| world.x[n as usize].y).sum::<f64>() / end.len() as f64;
+        let fall = -end.iter().map(|&n| world.x()[n as usize].y).sum::<f64>() / end.len() as f64;
         // As many parts as the strip has rows would be enough for a straight curve.
         let parts = 1000;
         let weight = fabric.areal_density * GRAVITY * length;
@@ -100,7 +100,7 @@ pub(super) fn between_hooks(sample: &Sample) -> Result<Outcome, SpecimenError> {
         let x = sheet.placed(|p| Vec3::new(p.y * span, -p.y.min(length - p.y) * steep, p.x));
         let mut world = sheet.hang(cloth, x, &bench)?;
         settle(&mut world, SPACING, 1e-6)?;
-        let lowest = world.x.iter().map(|p| -p.y).fold(0.0, f64::max);
+        let lowest = world.x().iter().map(|p| -p.y).fold(0.0, f64::max);
         let jaw = sheet.particles(|p| p.y > length - 0.5 * SPACING);
         let pull = held_with(&world, &jaw).x / (weight * width);
         let [sag, level] = theory::catenary(span, |tension| fabric.warp.strain(tension * weight));

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::view::label;
+use super::names::label;
 use crate::digitize::suggestions;
 use crate::fabric;
 use crate::io::garment::{Edit, EditError, KeyPath, edited, examine_text, read_file_only, scalar, seam_line};

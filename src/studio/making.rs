@@ -9,7 +9,8 @@ use std::thread::{self, JoinHandle};
 
 use super::StudioOptions;
 use super::frames::Frame;
-use super::session::{Session, Wanted};
+use super::session::Session;
+use super::wanted::Wanted;
 use crate::io::files::Private;
 
 /// A garment that is being made.

@@ -19,12 +19,15 @@ mod frames;
 mod history;
 mod http;
 mod making;
+mod names;
 mod page;
 mod private;
 mod server;
 mod session;
 mod view;
+mod wanted;
 mod watch;
+mod worker;
 
 use std::ffi::OsString;
 use std::net::{Ipv4Addr, TcpListener};
@@ -32,12 +35,13 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-pub use frames::write_frames;
 pub use private::opened;
-pub use session::SPACINGS;
+pub use wanted::SPACINGS;
+pub use worker::write_frames;
 
 use door::Door;
-use session::{Session, Wanted};
+use session::Session;
+use wanted::Wanted;
 
 /// A studio that cannot be opened.
 #[derive(Debug, thiserror::Error)]

@@ -6,7 +6,8 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::acts::told;
-use super::session::{SPACINGS, Wanted};
+use super::names::{bare, label};
+use super::wanted::{SPACINGS, Wanted};
 use crate::digitize::suggestions;
 use crate::fabric;
 use crate::geometry::{MM, Path, Vec2};
@@ -152,12 +153,6 @@ fn values(list: &[crate::pattern::Located<String>]) -> Vec<&str> {
     list.iter().map(|item| item.value.as_str()).collect()
 }
 
-/// `front.neck` of `front.L.neck@0..20`.
-pub(super) fn bare(edge: &str) -> String {
-    let name = edge.split('@').next().unwrap_or_default().trim();
-    name.split('.').filter(|word| !["L", "R"].contains(word)).collect::<Vec<_>>().join(".")
-}
-
 fn shown(piece: &PieceFile, said: &GarmentFile) -> PieceView {
     let metres = said.unit().factor();
     let name = piece.name.value.clone();
@@ -241,10 +236,6 @@ fn pieces_at(said: &GarmentFile, line: usize) -> Vec<String> {
     above.max_by_key(|(first, _)| *first).map(|(_, names)| names).unwrap_or_default()
 }
 
-/// Keys of a seam, and of an alteration, whose values are lengths.
-const OF_SEAM: [&str; 3] = ["ease", "tolerance", "allowance"];
-const OF_ALTERATION: [&str; 5] = ["by", "to_by", "at", "over", "share"];
-
 /// The lengths of the file that stand alone: ease and allowances, measures of the wearer, amounts of alterations.
 fn lengths(text: &str) -> Vec<LengthView> {
     let shown = |(path, value): (KeyPath, String)| {
@@ -252,20 +243,4 @@ fn lengths(text: &str) -> Vec<LengthView> {
         parse_quantity(&value).ok().map(|_| LengthView { path, label, value })
     };
     scalars(text).into_iter().filter_map(shown).collect()
-}
-
-/// The name of a length, if the value at a path is one.
-pub(super) fn label(path: &[String]) -> Option<String> {
-    let words: Vec<&str> = path.iter().map(String::as_str).collect();
-    let number = |text: &str| text.parse::<usize>().ok().map(|n| n + 1);
-    match words[..] {
-        ["allowance"] => Some("seam allowance".to_owned()),
-        ["body", measure] if measure != "like" => Some(format!("body, {}", measure.replace('_', " "))),
-        ["seams", seam, key] if OF_SEAM.contains(&key) => Some(format!("seam {seam}, {key}")),
-        ["pieces", piece, "allowance"] => Some(format!("piece {piece}, allowance")),
-        ["pieces", piece, "allowance", edge] => Some(format!("piece {piece}, allowance of {edge}")),
-        ["alter", item, key] if OF_ALTERATION.contains(&key) => Some(format!("alteration {}, {key}", number(item)?)),
-        ["alter", item, "at", at] => Some(format!("alteration {}, at {at}", number(item)?)),
-        _ => None,
-    }
 }

@@ -37,7 +37,6 @@ pub use control::{Start, StepControl};
 pub use error::ExplicitError;
 
 use super::force::{Forces, cloth_forces};
-use super::links::Links;
 use super::model::Cloth;
 use crate::geometry::Vec3;
 
@@ -299,8 +298,7 @@ fn is_finite(v: &Vec3) -> bool {
 /// The force law of a cloth: springs and bending with gravity, contact, friction and sewing pulls, N. Contacts are
 /// those of `forces`, so the law holds while no node moves further than the search radius of these contacts.
 pub fn law_of<'a>(cloth: &'a Cloth, forces: Forces<'a>) -> impl Fn(&[Vec3]) -> Vec<Vec3> + 'a {
-    let links = Links::new(cloth);
-    move |x| cloth_forces(cloth, &links, x, &forces)
+    move |x| cloth_forces(cloth, x, &forces)
 }
 
 /// A cloth at rest at `x` (one position per node) as [`Explicit`] particles. Nodes in `held` stay where they are.

@@ -1,6 +1,5 @@
 //! Draping on the form: from style lines on a body to a garment file.
 
-mod error;
 mod file;
 mod panels;
 mod place;
@@ -10,6 +9,7 @@ mod written;
 
 use std::path::Path;
 
+use super::draft_error::DraftError;
 use super::error::PipelineError;
 use super::surface::{Darts, Limit, SurfaceOptions, Weld, flatten_faces};
 use crate::fabric;
@@ -18,7 +18,6 @@ use crate::input::{LengthUnit, bytes, yaml};
 use crate::io::body::load_body;
 use crate::io::obj_read::ObjFaces;
 use crate::mannequin::{Mannequin, PartKind};
-pub use error::DraftError;
 use file::{DartsFile, EaseFile, LinesFile};
 use place::Form;
 use shell::{ShellEase, shell, tape};

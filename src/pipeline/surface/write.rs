@@ -1,7 +1,7 @@
 //! The files of a flattened surface.
 
 use super::super::error::PipelineError;
-use super::super::results::{ResultFile, json_text};
+use super::super::result_file::{ResultFile, json_text};
 use super::FlatSurface;
 use super::darts::LaidPart;
 use super::edges::PartRimEdge;

@@ -76,7 +76,7 @@ impl<'a> Carrier<'a> {
     /// As [`World::newton`].
     pub(super) fn carry(&self, world: &mut World, share: f64) -> Result<usize, StepError> {
         let moved = |(p, weights): (&Vec3, &Vec<f64>)| Vec3::new(p.x + self.way(p, weights) * share, p.y, p.z);
-        let target: Vec<Vec3> = world.x.iter().zip(&self.weights).map(moved).collect();
+        let target: Vec<Vec3> = world.x().iter().zip(&self.weights).map(moved).collect();
         world.carry(&target)?;
         for _ in 0..STEPS {
             world.newton(STEP, TRUST)?;

@@ -92,14 +92,14 @@ impl Stance {
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
             // What is under the skin when the limb goes on may come out on its other side.
             sewn.steps += carrier.carry(&mut world, share - last)? + come_out(&mut world)?;
-            (sewn.nodes, last) = (world.x, share);
+            (sewn.nodes, last) = (world.into_x(), share);
             progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
         sewn.steps += carrier.carry(&mut world, -last)?;
         let (steps, tangles) = settle(&mut world, Calm::TO_FALL, &mut || progress(1.0))?;
         let is_cut = world.is_cut();
-        Ok(Sewn { nodes: world.x, tangles, is_cut, steps: sewn.steps + steps, ..sewn })
+        Ok(Sewn { nodes: world.into_x(), tangles, is_cut, steps: sewn.steps + steps, ..sewn })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{ActError, EditError, sense, yaml};
 use crate::io::garment::Edit;
 use crate::pattern::{CutKind, GarmentFile, PieceFile, glob, whole_pieces};
-use crate::studio::view::bare;
+use crate::studio::names::bare;
 
 /// The piece with an edge called `piece.edge`, perhaps with a side.
 ///

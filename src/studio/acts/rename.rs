@@ -4,7 +4,7 @@ use super::edges::drawn;
 use super::{ActError, LONGEST_NAME, path, sense, yaml};
 use crate::io::garment::{Edit, keys, scalars};
 use crate::pattern::{GarmentFile, PieceFile, glob, whole_pieces};
-use crate::studio::view::bare;
+use crate::studio::names::bare;
 
 /// Parts of the file that name edges as `piece.edge`.
 const NAMING: [&str; 6] = ["seams", "free", "closures", "tests", "alter", "sizes"];

@@ -1,4 +1,4 @@
-//! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
+//! Resistance to extension by the fabric's measured, piecewise-linear load–extension curve (F3, F4).
 
 use crate::fabric::Fabric;
 use crate::geometry::{Mat3, Vec3};
@@ -85,15 +85,6 @@ pub struct Stretch {
     pub law: u32,
 }
 
-/// A spring between two nodes.
-#[derive(Clone, Copy, Debug)]
-pub struct Spring {
-    /// Its nodes.
-    pub ends: [u32; 2],
-    /// Its resistance.
-    pub stretch: Stretch,
-}
-
 /// Tangent stiffness of a spring: k = along · t tᵀ + across · (1 − t tᵀ), where t is its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StretchTangent {
@@ -103,13 +94,6 @@ pub(super) struct StretchTangent {
     pub(super) along: f64,
     /// N/m. Negative in compression.
     pub(super) across: f64,
-}
-
-impl Spring {
-    /// Difference of its second and first end, for positions or displacements of the nodes.
-    pub(super) fn span(&self, x: &[Vec3]) -> Vec3 {
-        x[self.ends[1] as usize] - x[self.ends[0] as usize]
-    }
 }
 
 impl StretchTangent {
@@ -124,6 +108,13 @@ impl StretchTangent {
     pub(super) fn bound(&self) -> Mat3 {
         let across = self.across.abs();
         Mat3::identity() * across + self.direction * self.direction.transpose() * (self.along - across).max(0.0)
+    }
+
+    /// Row of the node number `corner` in the stiffness of an element whose nodes have these `shares` of its span:
+    /// calls `add` with the number of each node and its block.
+    pub(super) fn add_row(&self, shares: &[f64], corner: usize, mut add: impl FnMut(usize, Mat3)) {
+        let block = self.matrix();
+        shares.iter().enumerate().for_each(|(k, share)| add(k, block * (shares[corner] * share)));
     }
 }
 
