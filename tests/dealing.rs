@@ -315,3 +315,14 @@ fn garments_of_garmentcode_are_worn_as_anyone_would() {
         check(&garment(&file, Some(&body), 0.02), openings, &[]);
     }
 }
+
+#[test]
+fn a_top_over_one_shoulder_has_that_arm_in_its_armhole() {
+    let text = include_str!("data/one_shoulder.yaml");
+    let job = of_text("one_shoulder", text);
+    check(&job, &["left arm", "head + right arm", "left leg + right leg"], &[("left arm", "a."), ("left arm", "c.")]);
+    // Worn back to front it would be over the right shoulder.
+    let turned = text.replace("torso front", "torso x").replace("torso back", "torso front");
+    let job = of_text("one_shoulder", &turned.replace("torso x", "torso back"));
+    check(&job, &["right arm", "head + left arm", "left leg + right leg"], &[("right arm", "a.")]);
+}

@@ -367,12 +367,79 @@ seams:
   turned: {sew: turned_up.edge, to: facing.bottom, face: same}
 free: [back.waist, '*.hem', facing.right, facing.left, turned_up.top, turned_up.right, turned_up.left]
 ";
-    let garment = read_text("skirt", "skirt.yaml", text).expect("a garment");
-    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
-    let job = Job::new(Path::new("skirt.yaml"), garment, &overrides).expect("a job");
+    let job = job_of("skirt", text);
     assert_eq!(glue(&job.garment, &job.mesh, &[]).left_out, [0, 1], "both lie on other cloth");
     let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
     let highest = |piece: usize| job.mesh.pieces[piece].particles.clone().map(|p| x[p].y).fold(0.0, f64::max);
     let lowest = |piece: usize| job.mesh.pieces[piece].particles.clone().map(|p| x[p].y).fold(f64::INFINITY, f64::min);
     assert!(lowest(0) > highest(1) - 0.15, "from {} m, on a facing up to {} m", lowest(0), highest(1));
+}
+
+/// A vest whose lapels are turned over on the front, and whose collar stands at the back.
+const LAPEL: &str = "garment: 1
+body: woman_92
+fabrics: {shell: cotton_poplin}
+pieces:
+  back:
+    cut: pair
+    drawn: R
+    place: torso back
+    outline: {start: 0 560, center: L 0 25, neck: 'C 50 25, 85 15, 90 0', shoulder: L 190 40,
+              armhole: 'C 165 110, 175 190, 240 215', side: L 245 560, hem: L 0 560}
+  front:
+    cut: pair
+    drawn: R
+    place: torso front
+    outline: {start: 0 560, hem: L -245 560, side: L -240 215, armhole: 'C -175 190, -165 110, -190 40',
+              shoulder: L -90 0, neck: L 0 180, center: L 0 560}
+  collar_back:
+    cut: pair
+    drawn: R
+    layer: 1
+    outline: {start: 0 40, neck: L -97.051 40, center: L -97.051 0, outer: L 0 0, end: L 0 40}
+  collar_front:
+    cut: pair
+    drawn: R
+    layer: 1
+    outline: {start: 0 0, end: L 40 0, neck: L 40 201.246, outer: 'Q -36 74, 0 0'}
+seams:
+  shoulder: {sew: front.shoulder, to: back.shoulder}
+  side: {sew: front.side, to: back.side}
+  front_center: {sew: front.center, to: mirror}
+  back_center: {sew: back.center, to: mirror}
+  front_neck: {sew: front.neck, to: collar_front.neck, face: same}
+  back_neck: {sew: back.neck, to: collar_back.neck}
+  end: {sew: collar_front.end, to: collar_back.end, face: same}
+  collar_center: {sew: collar_back.center, to: mirror}
+free: ['*.armhole', '*.outer', '*.hem']
+";
+
+/// The job of the file `text` of this name.
+fn job_of(name: &str, text: &str) -> Job {
+    let file = format!("{name}.yaml");
+    let garment = read_text(name, &file, text).expect("a garment");
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    Job::new(Path::new(&file), garment, &overrides).expect("a job")
+}
+
+/// Laid on the front as a patch is, it started in the collar: 51 triangles crossed one another.
+#[test]
+fn a_lapel_is_turned_over_where_its_collar_stands() {
+    let job = job_of("vest", LAPEL);
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    assert!(glued.left_out.is_empty(), "{:?}", glued.left_out);
+    let turned: Vec<&str> = glued.turned.iter().map(|&piece| job.mesh.pieces[piece].name.as_str()).collect();
+    assert_eq!(turned, ["collar_front.R", "collar_front.L"]);
+    is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
+    // A collar that lies on the cloth all round is none.
+    let flat = LAPEL.replace("to: collar_back.neck}", "to: collar_back.neck, face: same}");
+    let job = job_of("flat", &flat.replace("to: collar_back.end, face: same}", "to: collar_back.end}"));
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    assert!(glued.turned.is_empty() && glued.left_out.len() == 4, "{:?} {:?}", glued.turned, glued.left_out);
+}
+
+/// Its opening was held round the neck, above the shoulder that it hangs from.
+#[test]
+fn a_top_over_one_shoulder_is_sewn() {
+    is_sewn_round(&job("tests/data/one_shoulder.yaml"), &["left arm", "torso", "torso"]);
 }

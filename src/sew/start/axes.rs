@@ -350,6 +350,31 @@ mod tests {
     }
 
     #[test]
+    fn arms_in_sleeves_are_raised_only_where_they_hang_beside_the_trunk() {
+        let body = |way: Vec3| {
+            let section = |k: u32| Section {
+                center: Vec3::new(0.2, 1.4, 0.0) + way * (0.1 * f64::from(k)),
+                axis: way,
+                half_width: 0.05,
+                half_depth: 0.03,
+                girth: 0.28,
+            };
+            let sections = (0..=6).map(section).collect();
+            Axes::of_parts(&[BodyPart { kind: PartKind::LeftArm, sections, landmarks: Vec::new() }])
+        };
+        let angle = |axes: &Axes| {
+            let arm = axes.part(PartKind::LeftArm).expect("an arm");
+            (arm.station(arm.length()).center - arm.station(0.0).center).angle(&-Vec3::y())
+        };
+        let hanging = body(Vec3::new(0.1f64.sin(), -0.1f64.cos(), 0.0));
+        let arms = RaisedArms::in_sleeves(&hanging);
+        assert!((angle(&arms.pose(&hanging, 1.0)) - STANCE).abs() < 1e-9);
+        assert!((angle(&arms.pose(&hanging, 0.0)) - 0.1).abs() < 1e-9, "they come down");
+        let apart = body(Vec3::new(0.6, -0.8, 0.0));
+        assert_eq!(RaisedArms::in_sleeves(&apart).share, 0.0);
+    }
+
+    #[test]
     fn points_within_are_led_to_the_scaled_ellipse() {
         let axis = cylinder();
         let p = axis.led_out(Vec3::new(0.05, 0.5, 0.0), 0.5, 0.0).expect("inside");

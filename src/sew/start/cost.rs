@@ -61,14 +61,14 @@ pub(super) fn prior(ends: &[Ends]) -> f64 {
         || is(&[Ends::TOP, Ends::LEFT_LEG, Ends::RIGHT_LEG])
         || is(&[Ends::TOP, Ends::LEGS])
         || is(&[head, left, right, Ends::LEFT_LEG, Ends::RIGHT_LEG]);
+    let over_one_shoulder =
+        [[left, right.with(head)], [right, left.with(head)]].iter().any(|[a, b]| is(&[*a, *b, Ends::LEGS]));
     if usual {
         0.0
     } else if is(&[left, right, head.with(Ends::LEGS)]) || is(&[head, Ends::ARMS.with(Ends::LEGS)]) {
         0.5
-    } else if is(&[Ends::ARMS, head, Ends::LEGS]) || is(&[Ends::ALL]) {
+    } else if is(&[Ends::ARMS, head, Ends::LEGS]) || is(&[Ends::ALL]) || over_one_shoulder {
         1.5
-    } else if [[left, right.with(head)], [right, left.with(head)]].iter().any(|[a, b]| is(&[*a, *b, Ends::LEGS])) {
-        2.0
     } else {
         4.0
     }

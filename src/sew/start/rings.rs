@@ -111,9 +111,14 @@ impl WornOpenings<'_> {
         self.ends.iter().position(is_top)
     }
 
-    /// Whether cloth lies over both shoulders: between the opening of the head and those of the arms.
+    /// Whether cloth lies over the shoulders, or over one: between the opening of the head and those of the arms, of
+    /// which one may be in the head's.
     pub(super) fn hangs(&self) -> bool {
-        self.top().is_some() && [Ends::LEFT_ARM, Ends::RIGHT_ARM].iter().all(|arm| self.find(*arm).is_some())
+        let Some(top) = self.top() else { return false };
+        let arms = [Ends::LEFT_ARM, Ends::RIGHT_ARM];
+        let has = |arm: &&Ends| self.find(**arm).is_some();
+        let over = arms.iter().filter(has).count();
+        over > 0 && arms.iter().all(|arm| has(&arm) || self.ends[top].has(*arm))
     }
 
     /// The opening of a head that lies on the shoulders: no hood, no collar.
@@ -220,7 +225,9 @@ impl WornOpenings<'_> {
         for arm in [Ends::LEFT_ARM, Ends::RIGHT_ARM].into_iter().filter(|arm| ends.has(*arm)) {
             if let Some(arm) = limb_of(arm).and_then(|kind| axes.part(kind)) {
                 let joint = arm.station(FIRST);
-                center = 0.5 * (center + joint.center);
+                // It goes round below the arm.
+                let below = joint.center - Vec3::y() * (arm.girth(FIRST) / TAU);
+                center = 0.5 * (center + below);
                 axis += joint.axis;
             }
         }
