@@ -18,8 +18,8 @@ pub(super) struct Sheets {
 /// from it, the one furthest from the shell lies on the others; of as far ones the smallest. Pieces that are sewn to
 /// it within its layer lie with it.
 ///
-/// A piece is turned over instead if then nothing is in the way any more and what it is sewn to stands up beside it:
-/// the front of a lapel, whose collar stands at the back.
+/// A piece is turned over instead if then nothing is in the way any more and it is sewn to two sheets: the front of a
+/// lapel, whose collar stands at the back.
 ///
 /// `sets` are the particles as they are welded; `is_out` those that are not part of the surface.
 pub(super) fn sheets(garment: &Garment, mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Sheets {
@@ -117,8 +117,9 @@ impl<'a> LayerGraph<'a> {
         }
     }
 
-    /// The pieces of a group that are to be turned over, so that none of it is in the way any more and the others of it
-    /// are sewn to cloth beside it that is part of the surface. `None` if that cannot be.
+    /// The pieces of a group that are to be turned over, so that none of it is in the way any more. `None` if that
+    /// cannot be, or if one of them lies on cloth that is one sheet there, as a flat collar on a neckline: what a lapel
+    /// is in the way of is a front and, apart from it, a collar.
     fn turned(
         &self,
         group: &BTreeSet<usize>,
@@ -136,16 +137,35 @@ impl<'a> LayerGraph<'a> {
                 return None;
             }
         }
-        let stands = |pieces: [usize; 2]| {
-            let [own, beside] = [0, 1].map(|k| group.contains(&pieces[k]) && !more.contains(&pieces[k]));
-            own != beside && pieces.iter().all(|p| !out.contains(p)) && !pieces.iter().all(|p| group.contains(p))
+        let crowds = self.crowds(root, out, before);
+        let is_lapel = |piece: &usize| {
+            let beside = crowds.iter().filter(|crowd| crowd.contains(piece)).flatten();
+            !self.is_one_sheet(&beside.copied().filter(|p| p != piece).collect())
         };
-        self.joints().any(|(pieces, open)| open && stands(pieces)).then_some(more)
+        more.iter().all(is_lapel).then_some(more)
+    }
+
+    /// Whether pieces hang together along the seams between them.
+    fn is_one_sheet(&self, pieces: &BTreeSet<usize>) -> bool {
+        let mut sets = DisjointSets::new(self.mesh.pieces.len());
+        for ([a, b], _) in self.joints().filter(|(joint, open)| *open && joint.iter().all(|p| pieces.contains(p))) {
+            sets.join(a as u32, b as u32);
+        }
+        pieces.iter().all(|p| pieces.first().is_some_and(|first| sets.same(*first as u32, *p as u32)))
     }
 
     /// The pieces that are in the way of others, with the number of sides of triangles along which they are.
     fn in_the_way(&self, root: &[u32], out: &BTreeSet<usize>, turned: &BTreeSet<usize>) -> BTreeMap<usize, usize> {
-        let mut ways: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+        let mut votes: BTreeMap<usize, usize> = BTreeMap::new();
+        for piece in self.crowds(root, out, turned).iter().filter_map(|crowd| self.outermost(crowd)) {
+            *votes.entry(piece).or_default() += 1;
+        }
+        votes
+    }
+
+    /// The pieces that meet along sides of triangles and go the same way from there; for each such side those pieces.
+    fn crowds(&self, root: &[u32], out: &BTreeSet<usize>, turned: &BTreeSet<usize>) -> Vec<BTreeSet<usize>> {
+        let mut ways: BTreeMap<[u32; 2], BTreeSet<usize>> = BTreeMap::new();
         for (i, piece) in self.mesh.pieces.iter().enumerate().filter(|(i, _)| !out.contains(i)) {
             for t in &self.mesh.triangles[piece.triangles.clone()] {
                 if t.iter().any(|&p| self.is_out[p as usize]) {
@@ -158,19 +178,12 @@ impl<'a> LayerGraph<'a> {
                         way.reverse();
                     }
                     if way[0] != way[1] {
-                        ways.entry(way).or_default().push(i);
+                        ways.entry(way).or_default().insert(i);
                     }
                 }
             }
         }
-        let mut votes: BTreeMap<usize, usize> = BTreeMap::new();
-        for pieces in ways.into_values().filter(|pieces| pieces.len() > 1) {
-            let distinct: BTreeSet<usize> = pieces.into_iter().collect();
-            if distinct.len() > 1 {
-                self.outermost(&distinct).into_iter().for_each(|piece| *votes.entry(piece).or_default() += 1);
-            }
-        }
-        votes
+        ways.into_values().filter(|pieces| pieces.len() > 1).collect()
     }
 
     /// Of these pieces the one furthest from the shell, of as far ones the smallest.
