@@ -1,4 +1,4 @@
-//! What the caller chooses in place of what a garment file says.
+//! Choices of the caller that replace those of a garment file.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What the report says of the fit.
+//! The part of the report on the fit.
 
 use serde::{Deserialize, Serialize};
 

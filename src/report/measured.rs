@@ -1,4 +1,4 @@
-//! What the report is measured on.
+//! The garment that the report is measured on.
 
 use super::bands::Bands;
 use super::schema::Stage;

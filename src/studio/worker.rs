@@ -1,4 +1,4 @@
-//! What the process does that makes the garment of a file.
+//! The process that makes the garment of a file.
 
 use std::cell::RefCell;
 use std::io::{self, Write};

@@ -310,6 +310,18 @@ mod tests {
         Axes::of_cylinder([0.2, 0.1]).axes.swap_remove(0)
     }
 
+    /// A limb of 0.6 m from a shoulder in this direction.
+    fn limb(kind: PartKind, way: Vec3) -> BodyPart {
+        let section = |k: u32| Section {
+            center: Vec3::new(0.2, 1.4, 0.0) + way * (0.1 * f64::from(k)),
+            axis: way,
+            half_width: 0.05,
+            half_depth: 0.03,
+            girth: 0.28,
+        };
+        BodyPart { kind, sections: (0..=6).map(section).collect(), landmarks: Vec::new() }
+    }
+
     #[test]
     fn an_axis_goes_from_end_to_end_and_straight_on() {
         let axis = cylinder();
@@ -323,15 +335,7 @@ mod tests {
     #[test]
     fn an_arm_is_raised_about_its_shoulder_joint() {
         let way = Vec3::new(0.6, -0.8, 0.0);
-        let section = |k: u32| Section {
-            center: Vec3::new(0.2, 1.4, 0.0) + way * (0.1 * f64::from(k)),
-            axis: way,
-            half_width: 0.05,
-            half_depth: 0.03,
-            girth: 0.28,
-        };
-        let part = |kind| BodyPart { kind, sections: (0..=6).map(section).collect(), landmarks: Vec::new() };
-        let body = Axes::of_parts(&[part(PartKind::LeftArm), part(PartKind::LeftLeg)]);
+        let body = Axes::of_parts(&[limb(PartKind::LeftArm, way), limb(PartKind::LeftLeg, way)]);
         let at = |body: &Axes, kind, s: f64| body.part(kind).map(|axis| axis.station(s).center).expect("an axis");
         let joint = Vec3::new(0.2, 1.4, 0.0) - way * (TO_JOINT * 0.08);
         let raised = body.with_arms_raised(1.0);
@@ -351,17 +355,7 @@ mod tests {
 
     #[test]
     fn arms_in_sleeves_are_raised_only_where_they_hang_beside_the_trunk() {
-        let body = |way: Vec3| {
-            let section = |k: u32| Section {
-                center: Vec3::new(0.2, 1.4, 0.0) + way * (0.1 * f64::from(k)),
-                axis: way,
-                half_width: 0.05,
-                half_depth: 0.03,
-                girth: 0.28,
-            };
-            let sections = (0..=6).map(section).collect();
-            Axes::of_parts(&[BodyPart { kind: PartKind::LeftArm, sections, landmarks: Vec::new() }])
-        };
+        let body = |way: Vec3| Axes::of_parts(&[limb(PartKind::LeftArm, way)]);
         let angle = |axes: &Axes| {
             let arm = axes.part(PartKind::LeftArm).expect("an arm");
             (arm.station(arm.length()).center - arm.station(0.0).center).angle(&-Vec3::y())

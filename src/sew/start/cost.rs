@@ -82,7 +82,7 @@ pub(super) struct Unlike {
     pub(super) arms: Vec<f64>,
 }
 
-/// What it costs to break the mirror symmetry of openings.
+/// Finds what it costs to break the mirror symmetry of openings.
 pub(super) fn unlike(
     mirror: &Mirror,
     openings: &[GluedOpening],
