@@ -55,23 +55,33 @@ const STANCE: f64 = 30.0 * PI / 180.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RaisedArms {
     /// The share of the way to straight sideways.
-    pub(super) share: f64,
-    /// Whether they are in sleeves, which go with them.
-    pub(super) in_sleeves: bool,
+    share: f64,
 }
 
 impl RaisedArms {
     /// As they hang.
-    pub(super) const NONE: Self = Self { share: 0.0, in_sleeves: true };
+    pub(super) const NONE: Self = Self { share: 0.0 };
     /// Straight sideways, of a garment without sleeves.
-    pub(super) const SIDEWAYS: Self = Self { share: 1.0, in_sleeves: false };
+    pub(super) const SIDEWAYS: Self = Self { share: 1.0 };
 
     /// The arms of these axes in sleeves: at [`STANCE`] where they hang closer to the trunk.
     pub(super) fn in_sleeves(axes: &Axes) -> Self {
         let angle = |axis: &Axis| (axis.station(axis.length()).center - axis.station(0.0).center).angle(&-Vec3::y());
         let least = axes.axes.iter().filter(|axis| axis.kind.is_arm()).map(angle).fold(FRAC_PI_2, f64::min);
         let share = if least < STANCE { (STANCE - least) / (FRAC_PI_2 - least) } else { 0.0 };
-        Self { share, in_sleeves: true }
+        Self { share }
+    }
+
+    /// Where a point beside a raised arm is once the arm is raised only by this share of that: beyond the joint it goes
+    /// with the arm. `arm` is the axis as it hangs.
+    pub(super) fn carried(&self, p: Vec3, arm: &Axis, share: f64) -> Vec3 {
+        if self.share == 0.0 {
+            return p;
+        }
+        let (joint, reach) = arm.joint();
+        let [raised, now] = [1.0, share].map(|share| turn_sideways(&reach, self.share * share));
+        let off = p - joint;
+        if off.dot(&(raised * reach)) > 0.0 { joint + now * raised.inverse() * off } else { p }
     }
 
     /// The axes with the arms raised by this share of how they are raised.
@@ -127,17 +137,23 @@ impl Axis {
     /// those of the arm that hangs.
     fn raised(&self, share: f64) -> Self {
         let first = self.disks[0];
-        let further_in = TO_JOINT * (first.half[0] + first.half[1]);
-        let joint = first.center - self.station(0.0).axis * further_in;
-        let reach = self.disks[self.disks.len() - 1].center - joint;
-        let sideways = Vec3::x() * reach.x.signum();
-        let turn = Rotation3::scaled_rotation_between(&reach, &sideways, share).unwrap_or_else(Rotation3::identity);
+        let (joint, reach) = self.joint();
+        let turn = turn_sideways(&reach, share);
         let place = |p: Vec3| joint + turn * (p - joint);
         let turned = |disk: &Disk| Disk { center: place(disk.center), frame: disk.frame.map(|v| turn * v), ..*disk };
         let landmarks = self.landmarks.iter().map(|(name, at)| (name.clone(), place(*at))).collect();
         let at_joint = Disk { center: joint, ..first };
         let disks = std::iter::once(&at_joint).chain(&self.disks).map(turned).collect();
+        let further_in = (first.center - joint).norm();
         Self::new(self.kind, disks, -further_in, landmarks).unwrap_or_else(|| self.clone())
+    }
+
+    /// The joint that an arm is raised about, and the way from there to its end.
+    fn joint(&self) -> (Vec3, Vec3) {
+        let first = self.disks[0];
+        let further_in = TO_JOINT * (first.half[0] + first.half[1]);
+        let joint = first.center - self.station(0.0).axis * further_in;
+        (joint, self.disks[self.disks.len() - 1].center - joint)
     }
 
     /// Its length, metres.
@@ -230,6 +246,12 @@ impl Axis {
         let depth = parts.iter().map(|c| c * c).sum::<f64>().sqrt();
         (depth < 1.0 && depth > 1e-6).then(|| center + off / depth)
     }
+}
+
+/// The rotation by this share of the way from a direction to straight sideways.
+fn turn_sideways(way: &Vec3, share: f64) -> Rotation3<f64> {
+    let sideways = Vec3::x() * way.x.signum();
+    Rotation3::scaled_rotation_between(way, &sideways, share).unwrap_or_else(Rotation3::identity)
 }
 
 /// The cross-section of a part, with its directions.
@@ -346,6 +368,15 @@ mod tests {
             let lowered = at(&body.with_arms_raised(0.0), PartKind::LeftArm, s);
             assert!((lowered - at(&body, PartKind::LeftArm, s)).norm() < 1e-12, "{s}");
         }
+        let hanging = body.part(PartKind::LeftArm).expect("an arm");
+        for share in [0.0, 0.4, 1.0] {
+            let carried = RaisedArms::SIDEWAYS.carried(at(&raised, PartKind::LeftArm, 0.3), hanging, share);
+            let posed = RaisedArms::SIDEWAYS.pose(&body, share);
+            assert!((carried - at(&posed, PartKind::LeftArm, 0.3)).norm() < 1e-12, "{share}");
+        }
+        let in_trunk = joint - Vec3::x() * 0.05;
+        assert_eq!(RaisedArms::SIDEWAYS.carried(in_trunk, hanging, 0.0), in_trunk);
+        assert_eq!(RaisedArms::NONE.carried(joint + Vec3::x(), hanging, 0.0), joint + Vec3::x());
         let half = at(&body.with_arms_raised(0.5), PartKind::LeftArm, 0.6) - joint;
         assert!((half.y.atan2(half.x) - 0.5 * (-0.8f64).atan2(0.6)).abs() < 1e-12);
         // What lies between the trunk and the arm is led out too.

@@ -2,7 +2,7 @@
 //!
 //! Lengths are constraints that are met one after another, sweep by sweep (position-based dynamics; Macklin, Müller and
 //! Chentanez 2016). Pressure along the normals opens every fold; bending is softer than any cloth's, so that they open.
-//! Where a garment has no sleeves the arms are raised at first, and come down as the body grows.
+//! Raised arms come down as the body grows, and the ways of the body with them.
 //!
 //! No step carries cloth through cloth, or through the ways of the body (the bounds of contact): what starts without a
 //! crossing, round the right parts, stays so.
@@ -11,6 +11,7 @@ use std::collections::HashMap;
 
 use super::axes::{Axes, RaisedArms};
 use super::facing;
+use super::lids::Lid;
 use super::ribbon::Ribbons;
 use super::rings::{ABOVE_NECK, Neckline};
 use super::star::GluedPart;
@@ -34,6 +35,8 @@ const STRAP: f64 = 0.1;
 const WEIGHT: f64 = 0.2e-3;
 /// A node moves no further than this in one step, metres: less than it may go between two looks at [`REACH`].
 const LONGEST: f64 = 10e-3;
+/// A ribbon that is so near to where it belongs, metres, stays where it is: rounding does not move it.
+const STILL: f64 = 1e-9;
 /// Cloth is looked for within this distance of cloth, metres: no step is longer than half of it.
 const REACH: f64 = 21e-3;
 /// Cloth keeps this distance from cloth, metres, where it had it before.
@@ -110,6 +113,8 @@ pub(super) struct Balloon<'a> {
     pub(super) bending: Vec<Length>,
     /// Its openings and sections that are held.
     pub(super) held: Vec<Held>,
+    /// The lids of its hems.
+    pub(super) lids: Vec<Lid>,
     /// The ways of the body through it.
     pub(super) ways: &'a [WayOut],
     /// How the arms are raised while it is put on. They come down as the body grows.
@@ -145,6 +150,8 @@ struct Motion<'a> {
     near: Vec<Vec<u32>>,
     /// Distance that layers are drawn apart to, metres.
     apart: f64,
+    /// The ways of the body, as they are while it is inflated.
+    ribbons: Ribbons,
     detector: ClothDetector,
 }
 
@@ -154,22 +161,22 @@ impl Balloon<'_> {
         let mut motion = Motion::new(self, x);
         let held = |pressure: f64| Load { pressure, weight: Vec3::zeros(), is_held: true };
         let thin = self.arms.pose(axes, 1.0);
+        let ribbons = motion.ribbons.nodes.clone();
         for _ in 0..INFLATE {
-            motion.step(held(1.0), &thin, |p| thin.outside(p, SMALLEST, GAP));
-        }
-        if self.arms.in_sleeves && self.arms.share > 0.0 {
-            motion.leave_ribbons();
+            motion.step(held(1.0), &thin, &ribbons, |p| thin.outside(p, SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
             let growing = self.arms.pose(axes, 1.0 - share);
-            motion.step(held(1.0 - share), &growing, |p| growing.outside(p, scale, GAP));
+            let ribbons = motion.ribbons.carried(self.arms, axes, 1.0 - share);
+            motion.step(held(1.0 - share), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
         }
         let hung = Load { pressure: 0.0, weight: -Vec3::y() * WEIGHT, is_held: false };
         let settling = if self.hangs { hung } else { held(0.0) };
+        let ribbons = motion.ribbons.carried(self.arms, axes, 0.0);
         for _ in 0..SETTLE {
-            motion.step(settling, axes, |p| p + way_out(body, p, GAP, LOOK));
+            motion.step(settling, axes, &ribbons, |p| p + way_out(body, p, GAP, LOOK));
         }
         for _ in 0..CLEAR {
             if !motion.clear_middles(body) {
@@ -230,8 +237,8 @@ impl<'a> Motion<'a> {
         let width = |t: &[u32; 3]| t.map(|n| part.over_shoulder[n as usize]).into_iter().fold(f64::INFINITY, f64::min);
         let strap = part.triangles.iter().map(|t| 1.0 - inflated(width(t))).collect();
         let mut x = x.to_vec();
-        x.extend(ribbons.nodes);
-        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, strap, near, apart, detector }
+        x.extend(&ribbons.nodes);
+        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, strap, near, apart, ribbons, detector }
     }
 
     /// Number of nodes of the garment.
@@ -239,16 +246,9 @@ impl<'a> Motion<'a> {
         self.area.len()
     }
 
-    /// Goes on without the ribbons, which stay where they are: sleeves could not come down past those of the arms.
-    fn leave_ribbons(&mut self) {
-        let count = self.count();
-        self.x.truncate(count);
-        self.velocity.truncate(count);
-        self.detector = self.balloon.detector(&Ribbons::default(), count);
-    }
-
-    /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`.
-    fn step(&mut self, load: Load, axes: &Axes, outside: impl Fn(Vec3) -> Vec3) {
+    /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`, and the
+    /// ribbons go to where they are given.
+    fn step(&mut self, load: Load, axes: &Axes, ribbons: &[Vec3], outside: impl Fn(Vec3) -> Vec3) {
         let push = self.pushed();
         let turn = facing::turned(&self.x[..self.count()], &self.balloon.part.triangles, &self.strap, axes);
         let mut p: Vec<Vec3> = self.x.iter().zip(&self.velocity).map(|(x, v)| x + v).collect();
@@ -270,6 +270,11 @@ impl<'a> Motion<'a> {
         }
         for (x, p) in self.x.iter().zip(&mut p).take(self.area.len()) {
             *p = x + short(outside(*p) - x);
+        }
+        let count = self.count();
+        for ((x, p), to) in self.x.iter().zip(&mut p).skip(count).zip(ribbons) {
+            let way = to - x;
+            *p = if way.norm() < STILL { *x } else { x + short(way) };
         }
         self.go(p);
     }
@@ -297,13 +302,13 @@ impl<'a> Motion<'a> {
         true
     }
 
-    /// Moves towards `p` as far as nothing meets.
+    /// Moves towards `p` as far as nothing meets. Ribbons that stay give way to nothing.
     fn go(&mut self, mut p: Vec<Vec3>) {
         let contacts = self.detector.detect(&self.x, REACH);
         let mut bounds = Bounds::new(&self.x, REACH, MARGIN);
         let [leash, _] = Bounds::allowances_after_all(REACH, REACH);
         (0..self.x.len()).for_each(|n| bounds.restart(n, self.x[n], leash));
-        bounds.hold((self.count() as u32..self.x.len() as u32).collect());
+        bounds.hold((self.count()..self.x.len()).filter(|n| p[*n] == self.x[*n]).map(|n| n as u32).collect());
         bounds.clamp(&contacts.iter().collect::<Vec<&Contact>>(), &self.x, &mut p);
         for ((x, v), p) in self.x.iter_mut().zip(&mut self.velocity).zip(p) {
             *v = (p - *x) * KEEP;
@@ -312,6 +317,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed, and on straps.
+    /// Nodes at a hem carry the pressure on its lid too.
     fn pushed(&self) -> Vec<Vec3> {
         let mut out = vec![Vec3::zeros(); self.count()];
         for t in &self.balloon.part.triangles {
@@ -319,8 +325,14 @@ impl<'a> Motion<'a> {
             let normal = (c - a).cross(&(b - a));
             t.iter().for_each(|n| out[*n as usize] += normal);
         }
-        let round = self.area.iter().zip(&self.balloon.part.over_shoulder);
-        out.iter().zip(round).map(|(n, (area, width))| n * inflated(*width) / area.max(f64::MIN_POSITIVE)).collect()
+        for (n, area) in out.iter_mut().zip(&self.area) {
+            *n /= area.max(f64::MIN_POSITIVE);
+        }
+        for (n, push) in self.balloon.lids.iter().flat_map(|lid| lid.push(&self.x, &self.area)) {
+            out[n] += push;
+        }
+        let round = &self.balloon.part.over_shoulder;
+        out.iter().zip(round).map(|(n, width)| n * inflated(*width)).collect()
     }
 
     /// Pairs of nodes of different layers that are near each other.

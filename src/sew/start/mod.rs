@@ -28,6 +28,7 @@ mod hand_over;
 mod harmonic;
 mod laps;
 mod layers;
+mod lids;
 mod marks;
 mod openings;
 mod outside;
@@ -71,6 +72,7 @@ use axes::{Axes, RaisedArms};
 use balloon::{Balloon, Held, Length};
 use circles::Mouth;
 use harmonic::{Film, Limb, OpeningRing, angles};
+use lids::Lid;
 use profile::Profile;
 use rings::{FIRST, WornOpenings, limb_of};
 use sections::sections;
@@ -146,6 +148,14 @@ struct OnFilm<'a> {
     /// For each connected part the body that it is put on.
     posed: &'a [Posed],
     nodes: Vec<Vec3>,
+}
+
+/// The lids of the openings of a connected part that both legs leave by. All others are narrow, or are held.
+fn hems(worn: &WornOpenings, triangles: &[[u32; 3]]) -> Vec<Lid> {
+    let rims: Vec<&[u32]> = worn.openings.iter().map(|opening| opening.rim.as_slice()).collect();
+    let is_hem = |ends: &Ends| ends.has(Ends::LEFT_LEG) && ends.has(Ends::RIGHT_LEG);
+    let lids = Lid::all(triangles, &rims, &worn.far).into_iter().zip(&worn.ends);
+    lids.filter(|(_, ends)| is_hem(ends)).map(|(lid, _)| lid).collect()
 }
 
 /// The body that a part of a garment is put on.
@@ -251,7 +261,7 @@ impl Dealt {
         for number in 0..film.worn.len() as u32 {
             let is_own = |n: u32| self.glued.part_of[n as usize] == number;
             let part = self.part(mesh, &film, &rims, number);
-            let posed = &film.posed[number as usize];
+            let (worn, posed) = (&film.worn[number as usize], &film.posed[number as usize]);
             let star = part.star(&posed.axes);
             let own = self.glued.triangles.iter().zip(&self.glued.corners).filter(|(t, _)| is_own(t[0]));
             let balloon = Balloon {
@@ -259,10 +269,11 @@ impl Dealt {
                 piece: own.map(|(_, corners)| piece(corners)).collect(),
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
+                lids: hems(worn, &part.triangles),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
                 arms: posed.arms,
-                hangs: film.worn[number as usize].hangs(),
-                neckline: film.worn[number as usize].neckline(),
+                hangs: worn.hangs(),
+                neckline: worn.neckline(),
             };
             let x = balloon.inflate(star.as_ref().map_or(&film.nodes, |star| &star.nodes), axes, body);
             (0..x.len()).filter(|n| is_own(*n as u32)).for_each(|n| nodes[n] = x[n]);

@@ -98,6 +98,7 @@ mod tests {
         let ways = WayOut {
             within: vec![up(0.1), up(0.5)],
             outside: (0..5).map(|k| Vec3::new(0.1 + 0.01 * f64::from(k), -0.001, 0.001)).collect(),
+            arm: None,
         };
         clear(&mut x, &t, &[ways], Vec3::zeros());
         let far =

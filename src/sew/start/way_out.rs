@@ -21,6 +21,8 @@ pub(super) struct WayOut {
     pub(super) within: Vec<Vec3>,
     /// From there straight out.
     pub(super) outside: Vec<Vec3>,
+    /// The arm that leaves by it, if it is one.
+    pub(super) arm: Option<PartKind>,
 }
 
 /// The ways from a point on an axis to all ends of the body.
@@ -44,7 +46,8 @@ fn way_out(mouths: &[Mouth], from: Vec3, end: End, axes: &Axes) -> Option<WayOut
     let ahead = ring.center + ring.out() * (from - ring.center).dot(&ring.out()).max(0.0);
     let mut outside = vec![ahead];
     walk(&mut outside, ahead + ring.out() * OUT);
-    Some(WayOut { within, outside })
+    let arm = limb_of(Ends::of(end)).filter(|kind| kind.is_arm());
+    Some(WayOut { within, outside, arm })
 }
 
 /// From a point on the axis of a limb, if there is one `on` which the garment is, or of the trunk, to an end of the
