@@ -231,6 +231,36 @@ fn a_ball_and_a_tube_are_cut_into_panels() {
 }
 
 #[test]
+fn what_lies_flat_as_it_is_gets_no_gores() {
+    // A round hat: a hemisphere, and round its rim a brim 60 mm wide, level, in one mesh.
+    let (columns, brim) = (48, 3);
+    let mut hat = hemisphere(16, columns, false);
+    let rim = hat.vertices.len() as u32 - columns;
+    for row in 1..=brim {
+        for column in 0..columns {
+            let out = 1.0 + 20.0 * f64::from(row) / RADIUS;
+            let p = hat.vertices[(rim + column) as usize];
+            hat.vertices.push(Vec3::new(p.x * out, p.y, p.z * out));
+        }
+    }
+    let at = |row: u32, column: u32| rim + row * columns + column % columns;
+    for (row, column) in (0..brim).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let [a, b, c, d] = [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
+        hat.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    let flat = laid(&hat, &SurfaceOptions { gores: Some(6), ..options() });
+    assert_eq!(flat.report.pieces.len(), 7);
+    let largest = flat.report.pieces.iter().max_by(|a, b| a.area_flattened.total_cmp(&b.area_flattened)).unwrap();
+    let inside = |radius: f64| 0.5 * f64::from(columns) * radius * radius * (TAU / f64::from(columns)).sin();
+    let ring = inside(RADIUS + 60.0) - inside(RADIUS);
+    assert!((largest.area_flattened / ring - 1.0).abs() < 1e-6 && largest.strain.p99 < 1e-6, "{largest:?}");
+    assert!(flat.notes.iter().any(|note| note.contains("lies flat as it is")), "{:?}", flat.notes);
+    // A level disk alone stays one piece.
+    let disk = grid(8, 8, 0.0, |u, v| Vec3::new(200.0 * u, 200.0 * v, 0.0));
+    assert_eq!(laid(&disk, &SurfaceOptions { gores: Some(6), ..options() }).report.pieces.len(), 1);
+}
+
+#[test]
 fn a_drawn_line_is_cut() {
     let folder = tempfile::tempdir().expect("a folder");
     let mesh = grid(13, 11, 0.3, |u, v| Vec3::new(200.0 * u, 150.0 * v, 0.0));

@@ -1,7 +1,7 @@
 //! Gores of round parts and panels of long ones: cut from pole to rim, from pole to pole, or from rim to rim.
 
 use super::super::error::PipelineError;
-use super::cuts::straight;
+use super::cuts::{cut_sharp, straight};
 use super::darts::LayingInput;
 use super::even::local;
 use super::parts::SurfacePart;
@@ -12,35 +12,61 @@ use crate::flatten::round::Round;
 use crate::flatten::{Solid, shortest_path};
 use crate::geometry::{Vec3, nearest_on_segment, rim_loops};
 
-/// Cuts every part into so many gores or panels; notes on those that have no such form.
+/// A part whose strain is less lies flat as it is, and gores would win nothing.
+const FLAT: f64 = 1e-3;
+
+/// Cuts every part into so many gores or panels, but for those that lie flat as they are, holes and all; notes on these
+/// and on those that have no such form.
 pub(super) fn cut_gores(
     source: &LayingInput<'_>,
     sheet: &mut CutFaces,
     count: usize,
 ) -> Result<Vec<String>, PipelineError> {
+    set_brims_off(source, sheet);
     let mut notes = Vec::new();
-    let parts = sheet.parts();
-    let (all, mut done) = (parts.len(), 0);
-    for (number, part) in parts.into_iter().enumerate() {
+    let mut without = None;
+    let mut done = 0;
+    for (number, part) in sheet.parts().into_iter().enumerate() {
+        let name = part.name.clone();
+        if lies_flat(source, part) {
+            notes.push(format!("'{name}' lies flat as it is, and is not cut into gores"));
+            continue;
+        }
         let mut cut = sheet.clone();
-        match draw_gores(&mut cut, number, count) {
-            Some(()) => {
-                *sheet = cut;
-                done += 1;
-            }
-            None => notes.push(format!(
-                "'{}' is not cut into gores: it is neither a dome, nor a ball, nor a tube; --cut cuts along a line",
-                part.name
-            )),
+        if draw_gores(&mut cut, number, count).is_some() {
+            *sheet = cut;
+            done += 1;
+        } else {
+            let why = "it is neither a dome, nor a ball, nor a tube; --cut cuts along a line";
+            notes.push(format!("'{name}' is not cut into gores: {why}"));
+            without = without.or_else(|| notes.last().cloned());
         }
     }
-    if done == 0 && all > 0 {
-        let file = source.file.to_owned();
-        let why = notes.swap_remove(0);
-        return Err(PipelineError::Gores { file, why });
+    match without.filter(|_| done == 0) {
+        Some(why) => Err(PipelineError::Gores { file: source.file.to_owned(), why }),
+        None => {
+            sheet.cut_planned(CutWhy::Gore);
+            Ok(notes)
+        }
     }
-    sheet.cut_planned(CutWhy::Gore);
-    Ok(notes)
+}
+
+/// Cuts along sharp edges where that parts what lies flat as it is, such as a hat's brim, from what does not.
+fn set_brims_off(source: &LayingInput<'_>, sheet: &mut CutFaces) {
+    let mut cut = sheet.clone();
+    cut_sharp(&mut cut);
+    let parts = cut.parts();
+    if parts.len() > sheet.parts().len() {
+        let flat = parts.into_iter().map(|part| lies_flat(source, part)).collect::<Vec<_>>();
+        if flat.contains(&true) && flat.contains(&false) {
+            *sheet = cut;
+        }
+    }
+}
+
+/// Whether a part lies flat with all its rims and hardly a strain.
+fn lies_flat(source: &LayingInput<'_>, part: SurfacePart) -> bool {
+    source.lay(0, part, Vec::new()).is_ok_and(|laid| laid.flat.report.strain_p99 < FLAT)
 }
 
 /// Draws the lines between the gores of a part, whatever its form is; `None` where it has none.
