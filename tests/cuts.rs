@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
 use toile::flatten::line::{SurfacePoint, Web, length, plane_section, straightened};
-use toile::flatten::{Solid, shortest_path};
+use toile::flatten::{Solid, disk_cuts, shortest_path};
 use toile::geometry::{TriMesh, Vec3};
 use toile::input::LengthUnit;
 use toile::io::obj_read::ObjFaces;
@@ -258,6 +258,27 @@ fn what_lies_flat_as_it_is_gets_no_gores() {
     // A level disk alone stays one piece.
     let disk = grid(8, 8, 0.0, |u, v| Vec3::new(200.0 * u, 200.0 * v, 0.0));
     assert_eq!(laid(&disk, &SurfaceOptions { gores: Some(6), ..options() }).report.pieces.len(), 1);
+}
+
+#[test]
+fn of_equally_short_cuts_the_same_is_chosen_every_time() {
+    // A torus: round it every way is as short as the next.
+    let (n, m) = (24, 12);
+    let at = |i: u32, j: u32| i % n * m + j % m;
+    let place = |i: u32, j: u32| {
+        let [round, tube] = [f64::from(i) / f64::from(n), f64::from(j) / f64::from(m)].map(|share| TAU * share);
+        let out = 0.3 + 0.1 * tube.cos();
+        Vec3::new(out * round.cos(), 0.1 * tube.sin(), out * round.sin())
+    };
+    let cells = || (0..n).flat_map(|i| (0..m).map(move |j| (i, j)));
+    let vertices = cells().map(|(i, j)| place(i, j)).collect();
+    let halves = |(i, j): (u32, u32)| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let torus = TriMesh { vertices, triangles: cells().flat_map(halves).collect() };
+    let first = disk_cuts(&torus, &Solid::new());
+    assert!((0..10).all(|_| disk_cuts(&torus, &Solid::new()) == first));
 }
 
 #[test]

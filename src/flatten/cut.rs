@@ -100,7 +100,10 @@ fn opened(surface: &TriMesh, topology: &Topology, solid: &Solid, root: u32) -> V
     for edge in topology.rim_edges() {
         cuts.remove(&edge.ends);
     }
-    cuts.into_iter().collect()
+    // In one order, so that equally short ways have lengths that are equal to the last bit, and the same one is chosen.
+    let mut cuts: Vec<[u32; 2]> = cuts.into_iter().collect();
+    cuts.sort_unstable();
+    cuts
 }
 
 /// The shortest way from the rim to the vertex that is farthest from it, which opens a deep disk most.
