@@ -443,3 +443,9 @@ fn a_lapel_is_turned_over_where_its_collar_stands() {
 fn a_top_over_one_shoulder_is_sewn() {
     is_sewn_round(&job("tests/data/one_shoulder.yaml"), &["left arm", "torso", "torso"]);
 }
+
+/// The pressure lifted its skirt into the bodice, and arms that came down left their armholes.
+#[test]
+fn a_sleeveless_dress_with_a_wide_skirt_is_sewn() {
+    is_sewn_round(&job("tests/data/flared_dress.yaml"), &["left arm", "legs", "neck", "right arm"]);
+}

@@ -47,8 +47,8 @@ impl Lid {
         self.edges.iter().map(|edge| edge.map(|n| x[n as usize])).map(|[a, b]| a.cross(&b)).sum()
     }
 
-    /// The pressure on the lid at each of its nodes, in lengths of the pressure on flat cloth. `area` has twice the area
-    /// of the triangles round every node, metres².
+    /// The pressure on the lid at each of its nodes, in lengths of the pressure on flat cloth. `area` has twice the
+    /// area of the triangles round every node, metres².
     pub(super) fn push<'a>(&'a self, x: &[Vec3], area: &[f64]) -> impl Iterator<Item = (usize, Vec3)> + use<'a> {
         // Every triangle counts at each of its three corners.
         let own: f64 = self.nodes.iter().map(|n| area[*n as usize]).sum::<f64>() / 3.0;
