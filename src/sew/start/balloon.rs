@@ -130,6 +130,9 @@ pub(super) struct Balloon<'a> {
 struct Load {
     /// Share of the full pressure.
     pressure: f64,
+    /// Whether the cloth at hems carries the pressure on their lids, as it does round thin axes. While the arms come
+    /// down that draws straps off the shoulders.
+    on_lids: bool,
     /// Way by which the weight moves a free node.
     weight: Vec3,
     /// Whether openings and sections are held.
@@ -159,7 +162,7 @@ impl Balloon<'_> {
     /// Inflates the part, whose nodes start at `x`, round the `axes`, lets these grow, and puts it on the body.
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut motion = Motion::new(self, x);
-        let held = |pressure: f64| Load { pressure, weight: Vec3::zeros(), is_held: true };
+        let held = |pressure: f64| Load { pressure, on_lids: pressure == 1.0, weight: Vec3::zeros(), is_held: true };
         let thin = self.arms.pose(axes, 1.0);
         let ribbons = motion.ribbons.nodes.clone();
         for _ in 0..INFLATE {
@@ -172,7 +175,7 @@ impl Balloon<'_> {
             let ribbons = motion.ribbons.carried(self.arms, axes, 1.0 - share);
             motion.step(held(1.0 - share), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
         }
-        let hung = Load { pressure: 0.0, weight: -Vec3::y() * WEIGHT, is_held: false };
+        let hung = Load { pressure: 0.0, on_lids: false, weight: -Vec3::y() * WEIGHT, is_held: false };
         let settling = if self.hangs { hung } else { held(0.0) };
         let ribbons = motion.ribbons.carried(self.arms, axes, 0.0);
         for _ in 0..SETTLE {
@@ -249,7 +252,7 @@ impl<'a> Motion<'a> {
     /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`, and the
     /// ribbons go to where they are given.
     fn step(&mut self, load: Load, axes: &Axes, ribbons: &[Vec3], outside: impl Fn(Vec3) -> Vec3) {
-        let push = self.pushed();
+        let push = self.pushed(load.on_lids);
         let turn = facing::turned(&self.x[..self.count()], &self.balloon.part.triangles, &self.strap, axes);
         let mut p: Vec<Vec3> = self.x.iter().zip(&self.velocity).map(|(x, v)| x + v).collect();
         for ((p, push), turn) in p.iter_mut().zip(&push).zip(turn) {
@@ -317,8 +320,8 @@ impl<'a> Motion<'a> {
     }
 
     /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed, and on straps.
-    /// Nodes at a hem carry the pressure on its lid too.
-    fn pushed(&self) -> Vec<Vec3> {
+    /// Where told so, nodes at a hem carry the pressure on its lid too.
+    fn pushed(&self, on_lids: bool) -> Vec<Vec3> {
         let mut out = vec![Vec3::zeros(); self.count()];
         for t in &self.balloon.part.triangles {
             let [a, b, c] = t.map(|n| self.x[n as usize]);
@@ -328,7 +331,7 @@ impl<'a> Motion<'a> {
         for (n, area) in out.iter_mut().zip(&self.area) {
             *n /= area.max(f64::MIN_POSITIVE);
         }
-        for (n, push) in self.balloon.lids.iter().flat_map(|lid| lid.push(&self.x, &self.area)) {
+        for (n, push) in self.balloon.lids.iter().filter(|_| on_lids).flat_map(|lid| lid.push(&self.x, &self.area)) {
             out[n] += push;
         }
         let round = &self.balloon.part.over_shoulder;
