@@ -328,14 +328,13 @@ impl<'a> Motion<'a> {
             let normal = (c - a).cross(&(b - a));
             t.iter().for_each(|n| out[*n as usize] += normal);
         }
-        for (n, area) in out.iter_mut().zip(&self.area) {
-            *n /= area.max(f64::MIN_POSITIVE);
+        let width = |n: usize| inflated(self.balloon.part.over_shoulder[n]);
+        for (n, (out, area)) in out.iter_mut().zip(&self.area).enumerate() {
+            *out = *out * width(n) / area.max(f64::MIN_POSITIVE);
         }
-        for (n, push) in self.balloon.lids.iter().filter(|_| on_lids).flat_map(|lid| lid.push(&self.x, &self.area)) {
-            out[n] += push;
-        }
-        let round = &self.balloon.part.over_shoulder;
-        out.iter().zip(round).map(|(n, width)| n * inflated(*width)).collect()
+        let lids = self.balloon.lids.iter().filter(|_| on_lids);
+        lids.flat_map(|lid| lid.push(&self.x, &self.area)).for_each(|(n, push)| out[n] += push * width(n));
+        out
     }
 
     /// Pairs of nodes of different layers that are near each other.

@@ -150,9 +150,9 @@ struct OnFilm<'a> {
     nodes: Vec<Vec3>,
 }
 
-/// The lids of the openings of a connected part without sleeves that both legs leave by. Other openings are narrow or
-/// held. Sleeves are held too, and keep the pressure from lifting a skirt: with the lid of its hem a man's shirt took
-/// 33 s of CPU time to sew, and 18 s without.
+/// The lids of the openings of a connected part that both legs leave by. A skirt that hangs alone has no bodice that it
+/// could crush. Sleeves are held, and keep the pressure from lifting what hangs from them: with the lid of its hem a
+/// man's shirt took 33 s of CPU time to sew, and 18 s without.
 fn hems(worn: &WornOpenings, triangles: &[[u32; 3]]) -> Vec<Lid> {
     let rims: Vec<&[u32]> = worn.openings.iter().map(|opening| opening.rim.as_slice()).collect();
     let is_hem = |ends: &Ends| ends.has(Ends::LEFT_LEG) && ends.has(Ends::RIGHT_LEG);
@@ -164,8 +164,8 @@ fn hems(worn: &WornOpenings, triangles: &[[u32; 3]]) -> Vec<Lid> {
 struct Posed {
     axes: Axes,
     arms: RaisedArms,
-    /// Whether the arms are in sleeves.
-    has_sleeves: bool,
+    /// Whether it hangs from the shoulders and has no sleeves.
+    hangs_free: bool,
 }
 
 /// A ring of a connected part.
@@ -238,12 +238,13 @@ impl Dealt {
         let worn = self.worn(garment, mesh);
         let pose = |part: &WornOpenings| {
             let has_sleeves = part.has_sleeves(&part.rings(axes));
+            let hangs_free = part.hangs() && !has_sleeves;
             let arms = match has_sleeves {
                 false => RaisedArms::SIDEWAYS,
                 true if part.hangs() => RaisedArms::in_sleeves(axes),
                 true => RaisedArms::NONE,
             };
-            Posed { axes: arms.pose(axes, 1.0), arms, has_sleeves }
+            Posed { axes: arms.pose(axes, 1.0), arms, hangs_free }
         };
         let posed: Vec<Posed> = worn.iter().map(pose).collect();
         let (rings, limbs) = rings_and_limbs(&worn, &posed, &self.glued, &edges)?;
@@ -274,7 +275,7 @@ impl Dealt {
                 piece: own.map(|(_, corners)| piece(corners)).collect(),
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
-                lids: if posed.has_sleeves { Vec::new() } else { hems(worn, &part.triangles) },
+                lids: if posed.hangs_free { hems(worn, &part.triangles) } else { Vec::new() },
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
                 arms: posed.arms,
                 hangs: worn.hangs(),
