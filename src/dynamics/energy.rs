@@ -3,8 +3,8 @@
 //! A step asks four things of an energy: its value, its forces, its true stiffness, and a positive definite bound of
 //! the stiffness that can be factored. Energies of many elements *gather*: every node adds up what its elements exert,
 //! nodes side by side. Energies of few elements *scatter*: one thread goes through them afterwards and adds to their
-//! nodes. Two energies exert a pair, so that one pass over the nodes serves all of them. Every call is resolved
-//! when the program is built.
+//! nodes. Two energies together are an energy again, so that one pass over the nodes serves all of them. Every call is
+//! resolved when the program is built.
 //!
 //! Contact and friction are no [`Energy`]: which contacts push, stick or slide is found in the rounds of a step, and
 //! friction has an energy only at given normal forces. The stiffness of one such choice is a [`Stiffness`] and has a
