@@ -1,14 +1,14 @@
-//! Pieces that lie on others: facings and linings start where they will be, over the cloth they are sewn to, as many
-//! layers nearer to the body or further from it as the garment says.
+//! Pieces that lie on others: facings, linings and tacked pockets start where they will be, over the cloth they are
+//! sewn or tacked to, as many layers nearer to the body or further from it as the garment says.
 
 use std::ops::Range;
 
-use nalgebra::{Isometry2, Point2, UnitComplex};
+use nalgebra::{Isometry2, Point2, Translation2, UnitComplex};
 
 use super::folded::FoldedPieces;
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
-use crate::pattern::Garment;
+use crate::pattern::{Garment, patches};
 
 /// Distance from one layer of cloth to the next at the start, metres.
 pub(in crate::sew) const LAYER: f64 = 0.004;
@@ -62,7 +62,7 @@ pub(in crate::sew) fn laid_on_rest(
     sheet: &FoldedPieces,
     pieces: &[usize],
 ) -> Vec<Option<Laid>> {
-    let table = Table { garment, mesh, sheet, inward: inward(mesh, sheet) };
+    let table = Table { garment, mesh, sheet, inward: inward(mesh, sheet), patches: patches(garment) };
     let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
     let mut rest = pieces.to_vec();
     loop {
@@ -90,14 +90,19 @@ struct Table<'a> {
     mesh: &'a ClothMesh,
     sheet: &'a FoldedPieces,
     inward: Vec<Vec2>,
+    /// Pieces that closures alone hold.
+    patches: Vec<usize>,
 }
 
 impl Table<'_> {
-    /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there.
+    /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there; a patch on
+    /// what it is tacked to.
     fn on(&self, own: usize, may: impl Fn(&usize) -> bool) -> Option<Laid> {
+        let is_patch = self.patches.contains(&own);
         let lies_on = |piece: usize| {
-            let to_host = self.matched(own, piece, SeamWay::Same)?;
-            Some(Host { piece, layers: layers_over(self.garment, own, piece), to_host })
+            let tacks = if is_patch { Tacks::between(self.garment, own, piece) } else { Tacks::default() };
+            let to_host = tacks.to_host().or_else(|| self.matched(own, piece, SeamWay::Same))?;
+            Some(Host { piece, layers: tacks.layers(self.garment, own, piece), to_host })
         };
         self.spread(own, (0..self.mesh.pieces.len()).filter(may).filter_map(lies_on).collect())
     }
@@ -119,11 +124,10 @@ impl Table<'_> {
     fn matched(&self, own: usize, other: usize, way: SeamWay) -> Option<Isometry2<f64>> {
         let stitches = stitches(self.mesh, own, other);
         let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.flat[p as usize])).collect();
-        let to_other = fit(&ends)?;
-        let misfit: f64 = ends.iter().map(|[a, b]| ((to_other * Point2::from(*a)).coords - b).norm_squared()).sum();
+        let to_other = fitting(&ends)?;
         let inward = stitches.iter().map(|pair| pair.map(|p| self.inward[p as usize]));
         let same_way = inward.map(|[a, b]| (to_other * a).dot(&b)).sum::<f64>() > 0.0;
-        (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way == (way == SeamWay::Same)).then_some(to_other)
+        (same_way == (way == SeamWay::Same)).then_some(to_other)
     }
 
     /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if
@@ -146,6 +150,46 @@ impl Table<'_> {
         };
         let spots = self.mesh.pieces[own].particles.clone().map(nearest).collect::<Option<Vec<_>>>()?;
         Some(Laid { hosts, spots })
+    }
+}
+
+/// The tacks between a piece and the one that it lies on.
+#[derive(Default)]
+struct Tacks {
+    /// The points of every tack, flat: on the piece, and on the other one.
+    points: Vec<[Vec2; 2]>,
+    /// Whether the piece carries the closure: what that meets lies over it, as a buttonhole over its button.
+    is_under: bool,
+}
+
+impl Tacks {
+    fn between(garment: &Garment, own: usize, other: usize) -> Self {
+        let mut out = Self::default();
+        for [carries, meets] in garment.closures.iter().flat_map(|closure| &closure.tacks) {
+            if [carries.0, meets.0] == [own, other] {
+                out.points.push([carries.1, meets.1]);
+                out.is_under = true;
+            } else if [meets.0, carries.0] == [own, other] {
+                out.points.push([meets.1, carries.1]);
+            }
+        }
+        out
+    }
+
+    /// The turn and shift that lay the piece where they are; of one tack the shift alone, for pieces are drawn as they
+    /// hang. `None` if there are none, or if they do not match.
+    fn to_host(&self) -> Option<Isometry2<f64>> {
+        if let [[from, to]] = self.points[..] {
+            return Some(Translation2::from(to - from).into());
+        }
+        fitting(&self.points)
+    }
+
+    /// How many layers the piece lies over the other one, negative under it.
+    fn layers(&self, garment: &Garment, own: usize, other: usize) -> i32 {
+        let layers = layers_over(garment, own, other);
+        let is_of_one_layer = garment.pieces[own].layer == garment.pieces[other].layer;
+        if is_of_one_layer && self.is_under { -layers } else { layers }
     }
 }
 
@@ -177,6 +221,13 @@ pub(in crate::sew) fn fit(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
     }
     let turn = UnitComplex::new(f64::atan2(sine, cosine));
     Some(Isometry2::from_parts((to - turn * from).into(), turn))
+}
+
+/// [`fit`], if it brings the points as near as [`MISFIT`].
+fn fitting(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
+    let map = fit(pairs)?;
+    let misfit: f64 = pairs.iter().map(|[a, b]| ((map * Point2::from(*a)).coords - b).norm_squared()).sum();
+    (misfit <= MISFIT * MISFIT * pairs.len() as f64).then_some(map)
 }
 
 /// Where the cloth lies from every particle: on average over its triangles, metres; about nothing inside a piece.
