@@ -11,10 +11,9 @@ use crate::pattern::{Garment, LineKind};
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
 /// A fold whose points lie no further than this beside the line between its ends, metres, is straight: nobody draws a
-/// curve so flat, and where it begins and ends on an outline it may be off by a third of that.
+/// curve so flat, and where it begins and ends on an outline it may be off by a third of that. A particle no further
+/// over a fold lies on it.
 const STRAIGHT: f64 = 0.1e-3;
-/// A particle no further over a fold than this, metres, lies on the fold.
-const ON_FOLD: f64 = 1e-9;
 
 /// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
 /// rim under the other, or over it where right sides meet. Lays its pleats.
@@ -117,7 +116,7 @@ fn flap(
     }
     let balance: f64 = piece.particles.clone().map(|p| off(p).signum() * f64::from(sewn[p])).sum();
     let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
-    let is_over = |(p, _): &&(usize, Tangent)| off(*p) * keep < -ON_FOLD;
+    let is_over = |(p, _): &&(usize, Tangent)| off(*p) * keep < -STRAIGHT;
     Some(FoldedFlap { particles: tangents.iter().filter(is_over).copied().collect(), way: angle.signum() })
 }
 
