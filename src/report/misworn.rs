@@ -98,7 +98,7 @@ impl<'a> Wear<'a> {
         let (stage, before) = states.iter().find_map(|(stage, seen)| {
             let before = &seen.as_ref()?[k];
             let other = before.passage.ends != self.now[k].passage.ends;
-            (other && before.passage.through.is_some()).then_some((stage, before))
+            (other && before.passage.through.is_some() && !self.has_fallen_back(k, before)).then_some((stage, before))
         })?;
         let text = format!(
             "was round {} when it was {stage}, at a height of {:.0} mm, and is round {}, at {:.0} mm: nothing \
@@ -143,6 +143,13 @@ impl<'a> Wear<'a> {
         let with_face: Vec<&Passage> =
             self.together(k).map(|j| if j == k { &face } else { &self.now[j].passage }).collect();
         !is_dealt(&passages, self.run.body) && is_dealt(&with_face, self.run.body)
+    }
+
+    /// Whether an opening is the face of a hood that stood up over the end of the neck, and has fallen off it since: no
+    /// mannequin has a head that would hold it up.
+    fn has_fallen_back(&self, k: usize, before: &Seen) -> bool {
+        let end_of_neck = self.run.body.part(PartKind::Neck).and_then(|neck| neck.sections.last());
+        self.is_empty(k) && self.is_face(k) && end_of_neck.is_some_and(|end| before.height > end.center.y)
     }
 
     /// The other one of a pair: as long, and of pieces as large.
