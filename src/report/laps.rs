@@ -34,6 +34,10 @@ const ALIKE: f64 = 0.5;
 /// A shorter stretch in the wrong order, metres, is a corner that curls.
 const SHORTEST: f64 = 0.03;
 
+/// Edges that overlap by less than this, metres, meet edge to edge, as those of a slit without a placket: either may
+/// come to lie outside. The narrowest placket laps by twice as much.
+const NARROWEST: f64 = 0.01;
+
 /// Two edges that closures hold on one another.
 struct HeldLap<'a> {
     /// The edge that belongs inside, and the one outside.
@@ -62,7 +66,7 @@ pub(super) fn turned_laps(
     found
 }
 
-/// The laps: of pieces on different layers the outer one lies outside, of others the one that most of the closures'
+/// The laps that have an order: of pieces on different layers the outer one lies outside, of others the one that most of the closures'
 /// points meet, as a buttonhole lies over its button.
 fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<HeldLap<'a>> {
     let mut laps: Vec<HeldLap> = Vec::new();
@@ -75,6 +79,7 @@ fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<HeldLap<'a>> {
             None => {}
         }
     }
+    laps.retain(|lap| lap.fastenings.iter().any(|f| f.reach >= NARROWEST));
     for lap in &mut laps {
         let as_first = lap.fastenings.iter().filter(|f| f.ends[0].edge == lap.edges[0]).count();
         let layers = lap.edges.map(|edge| garment.pieces.get(edge.piece).map_or(0, |piece| piece.layer));

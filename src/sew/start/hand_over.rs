@@ -128,7 +128,8 @@ impl ParticleLaying {
         let class = |p: u32| class[p as usize] as usize;
         let mut lifted = vec![0.0; self.x.len()];
         for lap in &glued.laps {
-            let covering = lap.covered.iter().flat_map(|(_, on)| on.corners);
+            let under = lap.covered.iter().filter(|(_, on)| on.layers == 0.0);
+            let covering = under.flat_map(|(_, on)| on.corners);
             lap.pairs.iter().map(|pair| pair[0]).chain(covering).for_each(|p| lifted[class(p)] = lap.plies);
         }
         for lap in &glued.laps {

@@ -7,6 +7,7 @@ use nalgebra::Isometry2;
 
 use super::cover::{Cover, Flap, longest_over, onto, outward, partners, share_over};
 use super::glue::Follow;
+use super::tails::{Knotted, StrapEnd, knotted};
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
@@ -50,7 +51,8 @@ pub struct Lap {
     pub under: usize,
     /// Particles that are welded for the start: those of the rim, each with the one that it lies on.
     pub pairs: Vec<[u32; 2]>,
-    /// Particles of the lower piece that lie under the rim's cloth, and where on it.
+    /// Particles that are no part of the surface, and where on it they lie: those of the lower piece under the rim's
+    /// cloth, and the tails of knotted straps.
     pub covered: Vec<(u32, Follow)>,
     /// Of how many plies the upper piece is where it is thickest: of more than one where it is folded over.
     pub plies: f64,
@@ -71,7 +73,7 @@ pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces) ->
         }
         next += 1;
     }
-    rows.iter().filter_map(|row| row.lap(mesh, sheet)).collect()
+    rows.iter().filter_map(|row| row.lap(mesh, sheet, &partners)).collect()
 }
 
 /// Where a closure joins two pieces; what lies under comes first.
@@ -141,6 +143,8 @@ struct RimPair {
     reach: f64,
     /// Whether closures hold these rims themselves.
     is_held: bool,
+    /// Where a single point fastens the ends of two straps.
+    knot: Option<[Vec2; 2]>,
 }
 
 impl RimPair {
@@ -149,9 +153,12 @@ impl RimPair {
         let mut edges = row.first()?.ends.map(|end| end.edge);
         let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
         let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| f.points).collect();
+        let mut knot = None;
         if let [tack] = tacks[..] {
-            for side in 0..2 {
-                if let Some((edge, at)) = end_of_strap(garment, mesh, partners, tack[side]) {
+            let ends = [0, 1].map(|side| end_of_strap(garment, mesh, partners, tack[side]));
+            knot = (ends[0].is_some() && ends[1].is_some()).then(|| tack.map(|end| end.1));
+            for (side, end) in ends.into_iter().enumerate() {
+                if let Some((edge, at)) = end {
                     (edges[side], spots[side]) = (edge, vec![at]);
                 }
             }
@@ -184,7 +191,7 @@ impl RimPair {
             ends.push([one[0] + out[0]? * mesh.spacing, one[1] - out[1]? * mesh.spacing]);
         }
         let reach = row.iter().map(|f| f.reach).sum::<f64>() / row.len() as f64;
-        let mut row = Self { edges, rims, to_end, to_under: fit(&ends), reach, is_held: true };
+        let mut row = Self { edges, rims, to_end, to_under: fit(&ends), reach, is_held: true, knot };
         row.look_for_rims(mesh, partners);
         Some(row)
     }
@@ -284,11 +291,22 @@ impl RimPair {
             to_under: Some(to_under),
             reach: self.reach,
             is_held: false,
+            knot: None,
         })
     }
 
-    /// The lap: the upper rim over the cloth under it, or against the other rim where it does not reach over that.
-    fn lap(&self, mesh: &ClothMesh, sheet: &FoldedPieces) -> Option<Lap> {
+    /// The two straps of a knot with long tails.
+    fn knotted(&self, mesh: &ClothMesh, sheet: &FoldedPieces, partners: &Partners) -> Option<Knotted> {
+        let end = |side: usize| {
+            let (piece, rim) = (self.edges[side].piece, self.rims[side].as_slice());
+            Some(StrapEnd { piece, rim, knot: self.knot?[side], out: out_of(mesh, piece, rim)? })
+        };
+        knotted(mesh, sheet, [end(1)?, end(0)?], self.to_under.as_ref()?, |p| partners.contains_key(&p))
+    }
+
+    /// The lap: the upper rim over the cloth under it; a knot, where that is far from the rims; or the upper rim
+    /// against the other one, which it does not reach over.
+    fn lap(&self, mesh: &ClothMesh, sheet: &FoldedPieces, partners: &Partners) -> Option<Lap> {
         let [under, over] = self.pieces();
         let flap = |to_under| Flap {
             pieces: [over, under],
@@ -301,7 +319,10 @@ impl RimPair {
         let cover = self.to_under.and_then(|to_under| flap(to_under).cover(mesh, sheet));
         let (pairs, covered) = match cover {
             Some(Cover { pairs, covered }) => (pairs, covered),
-            None if self.is_held => (matched(&self.rims[1], &self.rims[0]), Vec::new()),
+            None if self.is_held => match self.knotted(mesh, sheet, partners) {
+                Some(Knotted { pairs, tails }) => (pairs, tails),
+                None => (matched(&self.rims[1], &self.rims[0]), Vec::new()),
+            },
             None => return None,
         };
         let pairs: Vec<[u32; 2]> = pairs.into_iter().filter(|[a, b]| a != b).collect();

@@ -42,6 +42,7 @@ mod sketch;
 mod slit;
 mod star;
 mod surface;
+mod tails;
 mod unfold;
 mod way_out;
 mod winding;

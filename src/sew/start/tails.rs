@@ -1,0 +1,99 @@
+//! Where two straps are knotted: the tails beyond the knot lie on the straps, and the straps are one band without them.
+
+use nalgebra::Isometry2;
+
+use super::cover::onto;
+use super::glue::Follow;
+use super::laps::matched;
+use crate::geometry::{Locator, Vec2};
+use crate::mesh::ClothMesh;
+use crate::sew::place::folded::FoldedPieces;
+
+/// The tails of the upper and of the lower strap start so many layers out of the straps: long ones lie over one another.
+const OUT: [f64; 2] = [2.0, 4.0];
+
+/// The end of a strap that is knotted.
+pub(super) struct StrapEnd<'a> {
+    /// Its piece.
+    pub(super) piece: usize,
+    /// The particles of its end.
+    pub(super) rim: &'a [u32],
+    /// Where the knot is, flat.
+    pub(super) knot: Vec2,
+    /// The unit direction from there to its end.
+    pub(super) out: Vec2,
+}
+
+/// Two straps joined at a knot.
+pub(super) struct Knotted {
+    /// Particles across the straps that are welded, the upper strap's first.
+    pub(super) pairs: Vec<[u32; 2]>,
+    /// The particles of both tails, and where on the other strap they lie.
+    pub(super) tails: Vec<(u32, Follow)>,
+}
+
+/// The particles of a strap at a knot: its tail, and those across the strap before the tail, in order from one side to
+/// the other.
+struct Cut {
+    tail: Vec<u32>,
+    across: Vec<u32>,
+}
+
+impl StrapEnd<'_> {
+    /// Cuts the tail off. `None` if a seam holds a part of it (`is_sewn`), or if nothing of it is beyond the knot.
+    fn cut(&self, mesh: &ClothMesh, is_sewn: impl Fn(u32) -> bool, sideways: Vec2) -> Option<Cut> {
+        let piece = &mesh.pieces[self.piece];
+        let first = piece.particles.start;
+        let beyond = |p: u32| (mesh.flat[p as usize] - self.knot).dot(&self.out) > 0.5 * mesh.spacing;
+        let mut next: Vec<Vec<u32>> = vec![Vec::new(); piece.particles.len()];
+        for t in &mesh.triangles[piece.triangles.clone()] {
+            (0..3).for_each(|k| next[t[k] as usize - first].extend([t[(k + 1) % 3], t[(k + 2) % 3]]));
+        }
+        let mut is_taken = vec![false; next.len()];
+        let mut take = |p: u32| !std::mem::replace(&mut is_taken[p as usize - first], true);
+        let mut tail: Vec<u32> = self.rim.iter().copied().filter(|p| beyond(*p) && take(*p)).collect();
+        let mut across = Vec::new();
+        let mut k = 0;
+        while k < tail.len() {
+            for &p in &next[tail[k] as usize - first] {
+                if take(p) {
+                    if beyond(p) { &mut tail } else { &mut across }.push(p);
+                }
+            }
+            k += 1;
+        }
+        let along = |p: &u32| mesh.flat[*p as usize].dot(&sideways);
+        across.sort_by(|a, b| along(a).total_cmp(&along(b)));
+        let is_free = !tail.is_empty() && !across.is_empty() && !tail.iter().any(|p| is_sewn(*p));
+        is_free.then_some(Cut { tail, across })
+    }
+}
+
+/// The straps of a knot, the upper one first. `to_under` maps the flat upper piece to the lower one. `None` where they
+/// are no straps with free tails that lie on one another.
+pub(super) fn knotted(
+    mesh: &ClothMesh,
+    sheet: &FoldedPieces,
+    [over, under]: [StrapEnd; 2],
+    to_under: &Isometry2<f64>,
+    is_sewn: impl Fn(u32) -> bool,
+) -> Option<Knotted> {
+    let sideways = Vec2::new(-over.out.y, over.out.x);
+    let upper = over.cut(mesh, &is_sewn, sideways)?;
+    let lower = under.cut(mesh, &is_sewn, to_under.rotation * sideways)?;
+    let is_tail = |p: u32| upper.tail.contains(&p) || lower.tail.contains(&p);
+    let lies_on = |tail: &[u32], host: usize, map: &Isometry2<f64>, layers: f64| -> Option<Vec<(u32, Follow)>> {
+        let triangles = &mesh.triangles[mesh.pieces[host].triangles.clone()];
+        let is_open = |t: &&[u32; 3]| !t.iter().any(|p| is_tail(*p) || sheet.hidden[*p as usize]);
+        let open: Vec<[u32; 3]> = triangles.iter().filter(is_open).copied().collect();
+        let ground = (!open.is_empty()).then(|| Locator::new(&mesh.flat, &open, mesh.spacing))?;
+        let follow = |p: &u32| {
+            let (corners, weights) = ground.place(onto(map, mesh.flat[*p as usize]));
+            (*p, Follow { corners, weights, layers, share: 1.0 })
+        };
+        Some(tail.iter().map(follow).collect())
+    };
+    let mut tails = lies_on(&upper.tail, under.piece, to_under, OUT[0])?;
+    tails.extend(lies_on(&lower.tail, over.piece, &to_under.inverse(), OUT[1])?);
+    Some(Knotted { pairs: matched(&upper.across, &lower.across), tails })
+}
