@@ -183,6 +183,11 @@ impl Axis {
         from.girth + (to.girth - from.girth) * share.clamp(0.0, 1.0)
     }
 
+    /// Its largest girth, metres.
+    pub(super) fn widest(&self) -> f64 {
+        self.disks.iter().map(|disk| disk.girth).fold(0.0, f64::max)
+    }
+
     /// Half its extent front to back at the first section after the place `s` metres along it, metres.
     pub(super) fn half_depth_after(&self, s: f64) -> f64 {
         self.between(s).1.half[1]

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use super::axes::{Axes, RaisedArms};
 use super::facing;
-use super::lids::Lid;
+use super::lids::{Lid, OnLids};
 use super::ribbon::Ribbons;
 use super::rings::{ABOVE_NECK, Neckline};
 use super::star::GluedPart;
@@ -29,7 +29,7 @@ const PUSH: f64 = 10e-3;
 /// Cloth no wider than this between the openings of the head and of an arm, metres, is a strap, which is not inflated;
 /// cloth of twice this width is inflated fully. Inflated straps lay round the trunk as a belt, and not over the
 /// shoulders.
-const STRAP: f64 = 0.1;
+pub(super) const STRAP: f64 = 0.1;
 /// While it settles the weight of cloth that hangs from the shoulders moves a free node by this per step, metres. With
 /// more a slip dress is drawn into its body and takes four times as many steps to sew.
 const WEIGHT: f64 = 0.2e-3;
@@ -130,9 +130,8 @@ pub(super) struct Balloon<'a> {
 struct Load {
     /// Share of the full pressure.
     pressure: f64,
-    /// Whether the cloth at hems carries the pressure on their lids, as it does round thin axes. While the arms come
-    /// down that draws straps off the shoulders.
-    on_lids: bool,
+    /// What the cloth at hems carries of the pressure on their lids.
+    on_lids: OnLids,
     /// Way by which the weight moves a free node.
     weight: Vec3,
     /// Whether openings and sections are held.
@@ -162,21 +161,21 @@ impl Balloon<'_> {
     /// Inflates the part, whose nodes start at `x`, round the `axes`, lets these grow, and puts it on the body.
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut motion = Motion::new(self, x);
-        let held = |pressure: f64| Load { pressure, on_lids: pressure == 1.0, weight: Vec3::zeros(), is_held: true };
+        let held = |pressure: f64, on_lids: OnLids| Load { pressure, on_lids, weight: Vec3::zeros(), is_held: true };
         let thin = self.arms.pose(axes, 1.0);
         let ribbons = motion.ribbons.nodes.clone();
         for _ in 0..INFLATE {
-            motion.step(held(1.0), &thin, &ribbons, |p| thin.outside(p, SMALLEST, GAP));
+            motion.step(held(1.0, OnLids::All), &thin, &ribbons, |p| thin.outside(p, SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
             let growing = self.arms.pose(axes, 1.0 - share);
             let ribbons = motion.ribbons.carried(self.arms, axes, 1.0 - share);
-            motion.step(held(1.0 - share), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
+            motion.step(held(1.0 - share, OnLids::Share), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
         }
-        let hung = Load { pressure: 0.0, on_lids: false, weight: -Vec3::y() * WEIGHT, is_held: false };
-        let settling = if self.hangs { hung } else { held(0.0) };
+        let hung = Load { pressure: 0.0, on_lids: OnLids::Share, weight: -Vec3::y() * WEIGHT, is_held: false };
+        let settling = if self.hangs { hung } else { held(0.0, OnLids::Share) };
         let ribbons = motion.ribbons.carried(self.arms, axes, 0.0);
         for _ in 0..SETTLE {
             motion.step(settling, axes, &ribbons, |p| p + way_out(body, p, GAP, LOOK));
@@ -320,8 +319,8 @@ impl<'a> Motion<'a> {
     }
 
     /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed, and on straps.
-    /// Where told so, nodes at a hem carry the pressure on its lid too.
-    fn pushed(&self, on_lids: bool) -> Vec<Vec3> {
+    /// Nodes at a hem carry pressure on its lid too.
+    fn pushed(&self, on_lids: OnLids) -> Vec<Vec3> {
         let mut out = vec![Vec3::zeros(); self.count()];
         for t in &self.balloon.part.triangles {
             let [a, b, c] = t.map(|n| self.x[n as usize]);
@@ -332,8 +331,8 @@ impl<'a> Motion<'a> {
         for (n, (out, area)) in out.iter_mut().zip(&self.area).enumerate() {
             *out = *out * width(n) / area.max(f64::MIN_POSITIVE);
         }
-        let lids = self.balloon.lids.iter().filter(|_| on_lids);
-        lids.flat_map(|lid| lid.push(&self.x, &self.area)).for_each(|(n, push)| out[n] += push * width(n));
+        let lids = self.balloon.lids.iter();
+        lids.flat_map(|lid| lid.push(on_lids, &self.x, &self.area)).for_each(|(n, push)| out[n] += push * width(n));
         out
     }
 

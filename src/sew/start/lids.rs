@@ -7,6 +7,15 @@ use std::collections::HashMap;
 
 use crate::geometry::{Vec3, sorted_pair};
 
+/// Which share of the pressure on its lid the cloth at an opening carries.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum OnLids {
+    /// The lid's own share, while the body grows.
+    Share,
+    /// All of it, round thin axes.
+    All,
+}
+
 /// The lid of an opening.
 #[derive(Clone, Debug)]
 pub(super) struct Lid {
@@ -14,13 +23,16 @@ pub(super) struct Lid {
     edges: Vec<[u32; 2]>,
     /// The nodes that are nearer to this opening than to another.
     nodes: Vec<u32>,
+    /// The share of the pressure on it that the cloth carries while the body grows.
+    share: f64,
 }
 
 impl Lid {
     /// The lids of openings with these rims. `far` has the distance of every node from each opening, metres. The
     /// `triangles` are those of one connected part, clockwise seen from outside.
     pub(super) fn all(triangles: &[[u32; 3]], rims: &[&[u32]], far: &[Vec<f64>]) -> Vec<Self> {
-        let mut lids: Vec<Self> = rims.iter().map(|_| Self { edges: Vec::new(), nodes: Vec::new() }).collect();
+        let mut lids: Vec<Self> =
+            rims.iter().map(|_| Self { edges: Vec::new(), nodes: Vec::new(), share: 0.0 }).collect();
         let mut nodes: Vec<u32> = triangles.iter().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -42,17 +54,31 @@ impl Lid {
         lids
     }
 
+    /// The same lid, which carries a share of the pressure while the body grows.
+    pub(super) fn sharing(self, share: f64) -> Self {
+        Self { share, ..self }
+    }
+
     /// Twice the area of the lid along its normal out of the balloon, metres².
     fn area(&self, x: &[Vec3]) -> Vec3 {
         self.edges.iter().map(|edge| edge.map(|n| x[n as usize])).map(|[a, b]| a.cross(&b)).sum()
     }
 
-    /// The pressure on the lid at each of its nodes, in lengths of the pressure on flat cloth. `area` has twice the
+    /// What its nodes carry of the pressure on the lid, in lengths of the pressure on flat cloth. `area` has twice the
     /// area of the triangles round every node, metres².
-    pub(super) fn push<'a>(&'a self, x: &[Vec3], area: &[f64]) -> impl Iterator<Item = (usize, Vec3)> + use<'a> {
+    pub(super) fn push<'a>(
+        &'a self,
+        on_lids: OnLids,
+        x: &[Vec3],
+        area: &[f64],
+    ) -> impl Iterator<Item = (usize, Vec3)> + use<'a> {
+        let share = match on_lids {
+            OnLids::Share => self.share,
+            OnLids::All => 1.0,
+        };
         // Every triangle counts at each of its three corners.
         let own: f64 = self.nodes.iter().map(|n| area[*n as usize]).sum::<f64>() / 3.0;
-        let push = self.area(x) / own.max(f64::MIN_POSITIVE);
+        let push = self.area(x) * share / own.max(f64::MIN_POSITIVE);
         self.nodes.iter().map(move |n| (*n as usize, push))
     }
 }

@@ -69,8 +69,8 @@ use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord, TrunkLevel};
 use crate::sew::place::PlaceError;
-use axes::{Axes, RaisedArms};
-use balloon::{Balloon, Held, Length};
+use axes::{Axes, Axis, RaisedArms};
+use balloon::{Balloon, Held, Length, STRAP};
 use circles::Mouth;
 use harmonic::{Film, Limb, OpeningRing, angles};
 use lids::Lid;
@@ -151,22 +151,28 @@ struct OnFilm<'a> {
     nodes: Vec<Vec3>,
 }
 
-/// The lids of the openings of a connected part that both legs leave by. A skirt that hangs alone has no bodice that it
-/// could crush. Sleeves are held, and keep the pressure from lifting what hangs from them: with the lid of its hem a
-/// man's shirt took 33 s of CPU time to sew, and 18 s without.
-fn hems(worn: &WornOpenings, triangles: &[[u32; 3]]) -> Vec<Lid> {
+/// The lids of the openings of a connected part that both legs leave by. Sleeves are held, and keep the pressure from
+/// lifting what hangs from them: with the lid of its hem a man's shirt took 33 s of CPU time to sew, and 18 s without.
+///
+/// While the body grows, the hem carries what its lid is larger than the body: as much as lifts a wide skirt more than a
+/// straight one. Not where the garment hangs from straps: while the arms come down that draws a strap off its shoulder.
+fn hems(worn: &WornOpenings, part: &GluedPart, axes: &Axes) -> Vec<Lid> {
+    let widest = axes.part(PartKind::Torso).map_or(0.0, Axis::widest);
+    let has_straps = part.over_shoulder.iter().any(|width| *width < STRAP);
+    let share = |length: f64| if has_straps { 0.0 } else { (1.0 - (widest / length).powi(2)).max(0.0) };
     let rims: Vec<&[u32]> = worn.openings.iter().map(|opening| opening.rim.as_slice()).collect();
     let is_hem = |ends: &Ends| ends.has(Ends::LEFT_LEG) && ends.has(Ends::RIGHT_LEG);
-    let lids = Lid::all(triangles, &rims, &worn.far).into_iter().zip(&worn.ends);
-    lids.filter(|(_, ends)| is_hem(ends)).map(|(lid, _)| lid).collect()
+    let lids = Lid::all(&part.triangles, &rims, &worn.far).into_iter().zip(&worn.openings);
+    let hems = lids.zip(&worn.ends).filter(|(_, ends)| is_hem(ends));
+    hems.map(|((lid, opening), _)| lid.sharing(share(opening.length))).collect()
 }
 
 /// The body that a part of a garment is put on.
 struct Posed {
     axes: Axes,
     arms: RaisedArms,
-    /// Whether it hangs from the shoulders and has no sleeves.
-    hangs_free: bool,
+    /// Whether an arm is in a sleeve.
+    has_sleeves: bool,
 }
 
 /// A ring of a connected part.
@@ -239,13 +245,12 @@ impl Dealt {
         let worn = self.worn(garment, mesh);
         let pose = |part: &WornOpenings| {
             let has_sleeves = part.has_sleeves(&part.rings(axes));
-            let hangs_free = part.hangs() && !has_sleeves;
             let arms = match has_sleeves {
                 false => RaisedArms::SIDEWAYS,
                 true if part.hangs() => RaisedArms::in_sleeves(axes),
                 true => RaisedArms::NONE,
             };
-            Posed { axes: arms.pose(axes, 1.0), arms, hangs_free }
+            Posed { axes: arms.pose(axes, 1.0), arms, has_sleeves }
         };
         let posed: Vec<Posed> = worn.iter().map(pose).collect();
         let (rings, limbs) = rings_and_limbs(&worn, &posed, &self.glued, &edges)?;
@@ -276,7 +281,7 @@ impl Dealt {
                 piece: own.map(|(_, corners)| piece(corners)).collect(),
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
-                lids: if posed.hangs_free { hems(worn, &part.triangles) } else { Vec::new() },
+                lids: if posed.has_sleeves { Vec::new() } else { hems(worn, &part, axes) },
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
                 arms: posed.arms,
                 hangs: worn.hangs(),
