@@ -449,3 +449,56 @@ fn a_top_over_one_shoulder_is_sewn() {
 fn a_sleeveless_dress_with_a_wide_skirt_is_sewn() {
     is_sewn_round(&job("tests/data/flared_dress.yaml"), &["left arm", "legs", "neck", "right arm"]);
 }
+
+/// The crease ends on slanted edges, beside where it was drawn by less than a micrometre. Its particles counted as
+/// folded over, and the collar started inside the shirt.
+#[test]
+fn a_collar_without_a_stand_starts_folded_and_is_sewn() {
+    let job = job("tests/data/collar_on_neck.yaml");
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    let collar = job.mesh.pieces.iter().find(|piece| piece.name == "collar").expect("a collar");
+    let has_place = |p: usize| {
+        let is_beyond = glued.beyond.iter().any(|beyond| beyond.particle as usize == p);
+        glued.node_of[p].is_some() || glued.follows[p].is_some() || is_beyond
+    };
+    assert!(collar.particles.clone().all(has_place));
+    is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
+}
+
+/// It started in the middle of the body.
+#[test]
+fn a_tacked_pocket_lies_on_its_skirt() {
+    let job = job("tests/data/tacked_pocket.yaml");
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    let piece = |name: &str| job.mesh.pieces.iter().position(|piece| piece.name == name).expect("a piece");
+    for p in job.mesh.pieces[piece("pocket")].particles.clone() {
+        // The pocket is drawn where it lies on the front.
+        let below = job.mesh.nearest(piece("front"), job.mesh.flat[p]).expect("cloth below");
+        assert!(x[p].z > x[below].z, "{:?} lies under {:?}", x[p], x[below]);
+    }
+    is_sewn_round(&job, &["legs", "torso"]);
+}
+
+/// Band and tails were one ring, twice as long as the waist.
+#[test]
+fn an_apron_is_tied_and_its_tails_are_no_part_of_the_band() {
+    let job = job("tests/data/tied_apron.yaml");
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    let shortest = openings(&glued, &job.mesh).iter().map(|opening| opening.length).fold(f64::INFINITY, f64::min);
+    assert!((shortest - 0.76).abs() < SPACING, "from knot to knot: {shortest} m");
+    is_sewn_round(&job, &["legs", "torso"]);
+}
+
+/// No mannequin has a head: a hood stands up when it is put on, and then falls off the end of the neck.
+#[test]
+fn a_hood_that_collapses_is_no_fault() {
+    let job = job("tests/data/hooded_top.yaml");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    run.drape(&mut |_, _| {}).expect("draped");
+    let report = run.report();
+    let face = report.worn.iter().find(|worn| worn.opening == "face").expect("the hood's opening");
+    assert_eq!(face.placed.as_ref().and_then(|placed| placed.body_part.as_deref()), Some("neck"));
+    assert_eq!(face.body_part, None, "it has fallen");
+    assert_eq!(report.worn.iter().filter_map(|worn| worn.fault.as_ref()).count(), 0, "{:?}", report.worn);
+}

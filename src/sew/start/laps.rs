@@ -7,7 +7,7 @@ use nalgebra::Isometry2;
 
 use super::cover::{Cover, Flap, longest_over, onto, outward, partners, share_over};
 use super::glue::Follow;
-use super::tails::{Knotted, StrapEnd, knotted};
+use super::tails::{BAND, Knotted, StrapEnd, end_of_strap, knotted};
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
@@ -17,14 +17,6 @@ use crate::sew::place::lay::fit;
 /// A rim goes on closed beyond its last button for this much, metres, or for the distance between two buttons if that
 /// is more: where the rest of the edge is no longer, all of it is closed.
 const BEYOND: f64 = 0.05;
-/// The end of a band no wider than this, metres, is closed by one button.
-const BAND: f64 = 0.15;
-
-/// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
-const AS_NEAR: f64 = 2.0;
-
-/// A strip so many times as long as wide is a band.
-const LONG: f64 = 5.0;
 
 /// A run of fewer particles of a rim lies over nothing.
 const SHORTEST: usize = 4;
@@ -320,7 +312,7 @@ impl RimPair {
         let (pairs, covered) = match cover {
             Some(Cover { pairs, covered }) => (pairs, covered),
             None if self.is_held => match self.knotted(mesh, sheet, partners) {
-                Some(Knotted { pairs, tails }) => (pairs, tails),
+                Some(Knotted { across: [upper, lower], tails }) => (matched(&upper, &lower), tails),
                 None => (matched(&self.rims[1], &self.rims[0]), Vec::new()),
             },
             None => return None,
@@ -354,31 +346,6 @@ fn free_edge_from(mesh: &ClothMesh, partners: &Partners, corner: u32) -> Option<
         }
         (particles.first() == Some(&corner)).then_some((e.edge, particles))
     })
-}
-
-/// The end of the strap or band that a single point fastens, and how far along it that is: it may be nearer to a side
-/// of the strap.
-fn end_of_strap(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    partners: &Partners,
-    (piece, at): (usize, Vec2),
-) -> Option<(EdgeId, f64)> {
-    let free = mesh.pieces[piece].edges.iter().filter(|e| e.particles.iter().any(|p| !partners.contains_key(p)));
-    let found: Vec<(f64, f64, EdgeId, f64)> = free
-        .map(|e| {
-            let path = &garment.pieces[piece].loops[e.edge.ring][e.edge.index].path;
-            let along = path.nearest(at).0;
-            ((path.point(along) - at).norm(), path.length(), e.edge, along)
-        })
-        .collect();
-    let nearest = found.iter().map(|f| f.0).fold(f64::INFINITY, f64::min);
-    let ends = found.iter().filter(|f| f.0 <= AS_NEAR * nearest && f.1 <= BAND);
-    let at_end = ends.min_by(|a, b| a.1.total_cmp(&b.1));
-    // Both ends of what is knotted hang from the knot.
-    let longest = found.iter().map(|f| f.1).fold(0.0, f64::max);
-    let of_band = found.iter().filter(|f| f.1 <= BAND && f.1 * LONG <= longest);
-    at_end.or_else(|| of_band.min_by(|a, b| a.0.total_cmp(&b.0))).map(|f| (f.2, f.3))
 }
 
 /// Whether a run of an edge's particles ends at the edge's own ends.

@@ -117,8 +117,10 @@ mod tests {
         let pressure: Vec3 = triangles.iter().map(|t| normal(t) * 3.0).sum();
         assert!(pressure.y > 0.1, "it is lifted: {pressure:?}");
         let lids = Lid::all(&triangles, &[&rim], &[far]);
-        let on_lid: Vec3 = lids[0].push(&x, &area).map(|(n, push)| push * area[n]).sum();
-        assert!((pressure + on_lid).norm() < 1e-12, "{pressure:?} {on_lid:?}");
+        let lid = lids[0].clone().sharing(0.25);
+        let carried = |on_lids| lid.push(on_lids, &x, &area).map(|(n, push)| push * area[n]).sum::<Vec3>();
+        assert!((pressure + carried(OnLids::All)).norm() < 1e-12, "{pressure:?} {:?}", carried(OnLids::All));
+        assert!((0.25 * pressure + carried(OnLids::Share)).norm() < 1e-12, "{:?}", carried(OnLids::Share));
     }
 
     #[test]

@@ -1,13 +1,25 @@
-//! Where two straps are knotted: the tails beyond the knot lie on the straps, and the straps are one band without them.
+//! Ends of straps: which of them a single point fastens, and knots. The tails beyond a knot lie on the straps, and the
+//! straps are one band without them.
+
+use std::collections::HashMap;
 
 use nalgebra::Isometry2;
 
 use super::cover::onto;
 use super::glue::Follow;
-use super::laps::matched;
 use crate::geometry::{Locator, Vec2};
 use crate::mesh::ClothMesh;
+use crate::pattern::{EdgeId, Garment};
 use crate::sew::place::folded::FoldedPieces;
+
+/// The end of a band no wider than this, metres, is closed by one button.
+pub(super) const BAND: f64 = 0.15;
+
+/// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
+const AS_NEAR: f64 = 2.0;
+
+/// A strip so many times as long as wide is a band.
+const LONG: f64 = 5.0;
 
 /// The tails of the upper and of the lower strap start so many layers out of the straps: long ones lie over one another.
 const OUT: [f64; 2] = [2.0, 4.0];
@@ -26,8 +38,8 @@ pub(super) struct StrapEnd<'a> {
 
 /// Two straps joined at a knot.
 pub(super) struct Knotted {
-    /// Particles across the straps that are welded, the upper strap's first.
-    pub(super) pairs: Vec<[u32; 2]>,
+    /// Particles across the two straps where these are welded, from one side to the other.
+    pub(super) across: [Vec<u32>; 2],
     /// The particles of both tails, and where on the other strap they lie.
     pub(super) tails: Vec<(u32, Follow)>,
 }
@@ -95,5 +107,30 @@ pub(super) fn knotted(
     };
     let mut tails = lies_on(&upper.tail, under.piece, to_under, OUT[0])?;
     tails.extend(lies_on(&lower.tail, over.piece, &to_under.inverse(), OUT[1])?);
-    Some(Knotted { pairs: matched(&upper.across, &lower.across), tails })
+    Some(Knotted { across: [upper.across, lower.across], tails })
+}
+
+/// The end of the strap or band that a single point fastens, and how far along it that is: it may be nearer to a side
+/// of the strap.
+pub(super) fn end_of_strap(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    partners: &HashMap<u32, Vec<u32>>,
+    (piece, at): (usize, Vec2),
+) -> Option<(EdgeId, f64)> {
+    let free = mesh.pieces[piece].edges.iter().filter(|e| e.particles.iter().any(|p| !partners.contains_key(p)));
+    let found: Vec<(f64, f64, EdgeId, f64)> = free
+        .map(|e| {
+            let path = &garment.pieces[piece].loops[e.edge.ring][e.edge.index].path;
+            let along = path.nearest(at).0;
+            ((path.point(along) - at).norm(), path.length(), e.edge, along)
+        })
+        .collect();
+    let nearest = found.iter().map(|f| f.0).fold(f64::INFINITY, f64::min);
+    let ends = found.iter().filter(|f| f.0 <= AS_NEAR * nearest && f.1 <= BAND);
+    let at_end = ends.min_by(|a, b| a.1.total_cmp(&b.1));
+    // Both ends of what is knotted hang from the knot.
+    let longest = found.iter().map(|f| f.1).fold(0.0, f64::max);
+    let of_band = found.iter().filter(|f| f.1 <= BAND && f.1 * LONG <= longest);
+    at_end.or_else(|| of_band.min_by(|a, b| a.0.total_cmp(&b.0))).map(|f| (f.2, f.3))
 }
