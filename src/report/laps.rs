@@ -66,8 +66,8 @@ pub(super) fn turned_laps(
     found
 }
 
-/// The laps that have an order: of pieces on different layers the outer one lies outside, of others the one that most of the closures'
-/// points meet, as a buttonhole lies over its button.
+/// The laps that have an order: of pieces on different layers the outer one lies outside, of others the one that most
+/// of the closures' points meet, as a buttonhole lies over its button.
 fn laps<'a>(garment: &Garment, closed: &'a [Fastening]) -> Vec<HeldLap<'a>> {
     let mut laps: Vec<HeldLap> = Vec::new();
     for fastening in closed {

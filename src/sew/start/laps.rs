@@ -7,7 +7,7 @@ use nalgebra::Isometry2;
 
 use super::cover::{Cover, Flap, longest_over, onto, outward, partners, share_over};
 use super::glue::Follow;
-use super::tails::{BAND, Knotted, StrapEnd, end_of_strap, knotted};
+use super::tails::{BAND, Knotted, SpotOnStrap, StrapEnd, end_of_strap, knotted};
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
@@ -312,7 +312,7 @@ impl RimPair {
         let (pairs, covered) = match cover {
             Some(Cover { pairs, covered }) => (pairs, covered),
             None if self.is_held => match self.knotted(mesh, sheet, partners) {
-                Some(Knotted { across: [upper, lower], tails }) => (matched(&upper, &lower), tails),
+                Some(knotted) => of_knot(knotted),
                 None => (matched(&self.rims[1], &self.rims[0]), Vec::new()),
             },
             None => return None,
@@ -320,6 +320,12 @@ impl RimPair {
         let pairs: Vec<[u32; 2]> = pairs.into_iter().filter(|[a, b]| a != b).collect();
         (!pairs.is_empty()).then_some(Lap { over, under, pairs, covered, plies })
     }
+}
+
+/// The pairs that a knot welds, and where its tails lie.
+fn of_knot(Knotted { across: [upper, lower], tails }: Knotted) -> (Vec<[u32; 2]>, Vec<(u32, Follow)>) {
+    let follow = |(p, SpotOnStrap { corners, weights, layers })| (p, Follow { corners, weights, layers, share: 1.0 });
+    (matched(&upper, &lower), tails.into_iter().map(follow).collect())
 }
 
 /// The direction out of a piece across one of its edges, unit: from the middle of the cloth near the middle of the edge

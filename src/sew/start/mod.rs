@@ -151,10 +151,11 @@ struct OnFilm<'a> {
     nodes: Vec<Vec3>,
 }
 
-/// The lids of the openings of a connected part that both legs leave by. Sleeves are held, and keep the pressure from
-/// lifting what hangs from them: with the lid of its hem a man's shirt took 33 s of CPU time to sew, and 18 s without.
+/// The lids of the openings of a connected part without sleeves that both legs leave by. Sleeves are held, and keep the
+/// pressure from lifting what hangs from them: with the lid of its hem a man's shirt took 33 s of CPU time to sew, and
+/// 18 s without.
 ///
-/// While the body grows, the hem carries what its lid is larger than the body: as much as lifts a wide skirt more than a
+/// While the body grows, the hem carries what its lid is larger than the body: that lifts a wide skirt more than a
 /// straight one. Not where the garment hangs from straps: while the arms come down that draws a strap off its shoulder.
 fn hems(worn: &WornOpenings, part: &GluedPart, axes: &Axes) -> Vec<Lid> {
     let widest = axes.part(PartKind::Torso).map_or(0.0, Axis::widest);

@@ -3,10 +3,8 @@
 
 use std::collections::HashMap;
 
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Point2};
 
-use super::cover::onto;
-use super::glue::Follow;
 use crate::geometry::{Locator, Vec2};
 use crate::mesh::ClothMesh;
 use crate::pattern::{EdgeId, Garment};
@@ -21,7 +19,8 @@ const AS_NEAR: f64 = 2.0;
 /// A strip so many times as long as wide is a band.
 const LONG: f64 = 5.0;
 
-/// The tails of the upper and of the lower strap start so many layers out of the straps: long ones lie over one another.
+/// The tails of the upper and of the lower strap start so many layers out of the straps: long ones lie over one
+/// another.
 const OUT: [f64; 2] = [2.0, 4.0];
 
 /// The end of a strap that is knotted.
@@ -41,7 +40,17 @@ pub(super) struct Knotted {
     /// Particles across the two straps where these are welded, from one side to the other.
     pub(super) across: [Vec<u32>; 2],
     /// The particles of both tails, and where on the other strap they lie.
-    pub(super) tails: Vec<(u32, Follow)>,
+    pub(super) tails: Vec<(u32, SpotOnStrap)>,
+}
+
+/// A place over a strap.
+pub(super) struct SpotOnStrap {
+    /// Particles of the triangle there, or of the nearest.
+    pub(super) corners: [u32; 3],
+    /// Their shares.
+    pub(super) weights: [f64; 3],
+    /// Layers out of the right side.
+    pub(super) layers: f64,
 }
 
 /// The particles of a strap at a knot: its tail, and those across the strap before the tail, in order from one side to
@@ -94,14 +103,14 @@ pub(super) fn knotted(
     let upper = over.cut(mesh, &is_sewn, sideways)?;
     let lower = under.cut(mesh, &is_sewn, to_under.rotation * sideways)?;
     let is_tail = |p: u32| upper.tail.contains(&p) || lower.tail.contains(&p);
-    let lies_on = |tail: &[u32], host: usize, map: &Isometry2<f64>, layers: f64| -> Option<Vec<(u32, Follow)>> {
+    let lies_on = |tail: &[u32], host: usize, map: &Isometry2<f64>, layers: f64| -> Option<Vec<(u32, SpotOnStrap)>> {
         let triangles = &mesh.triangles[mesh.pieces[host].triangles.clone()];
         let is_open = |t: &&[u32; 3]| !t.iter().any(|p| is_tail(*p) || sheet.hidden[*p as usize]);
         let open: Vec<[u32; 3]> = triangles.iter().filter(is_open).copied().collect();
         let ground = (!open.is_empty()).then(|| Locator::new(&mesh.flat, &open, mesh.spacing))?;
         let follow = |p: &u32| {
-            let (corners, weights) = ground.place(onto(map, mesh.flat[*p as usize]));
-            (*p, Follow { corners, weights, layers, share: 1.0 })
+            let (corners, weights) = ground.place((map * Point2::from(mesh.flat[*p as usize])).coords);
+            (*p, SpotOnStrap { corners, weights, layers })
         };
         Some(tail.iter().map(follow).collect())
     };
