@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
-use toile::mannequin::{BodyPart, Mannequin, Section};
+use toile::mannequin::{BodyPart, Mannequin, PartKind, Section};
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::ContactReport;
 use toile::sew::Stitching;
@@ -502,4 +502,17 @@ fn a_hood_that_collapses_is_no_fault() {
     assert_eq!(face.placed.as_ref().and_then(|placed| placed.body_part.as_deref()), Some("neck"));
     assert_eq!(face.body_part, None, "it has fallen");
     assert_eq!(report.worn.iter().filter_map(|worn| worn.fault.as_ref()).count(), 0, "{:?}", report.worn);
+}
+
+/// Its crotch was put at the body's, and the waistband under the arms.
+#[test]
+fn trousers_with_a_low_crotch_are_worn_at_the_waist() {
+    let job = job("tests/data/low_crotch.yaml");
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    let band = job.mesh.pieces.iter().find(|piece| piece.name == "band").expect("a band");
+    let middle = band.particles.clone().map(|p| x[p].y).sum::<f64>() / band.particles.len() as f64;
+    let torso = job.body.part(PartKind::Torso).expect("a torso");
+    let waist = torso.landmarks.iter().find(|(name, _)| name == "waist").expect("a waist").1.y;
+    assert!((middle - waist).abs() < 0.07, "the band starts at {middle} m, the waist is at {waist} m");
+    is_sewn_round(&job, &["left leg", "right leg", "torso"]);
 }

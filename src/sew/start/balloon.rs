@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use super::axes::{Axes, RaisedArms};
 use super::facing;
-use super::lids::{Lid, OnLids};
+use super::lids::{InflatedRound, Lid};
 use super::ribbon::Ribbons;
 use super::rings::{ABOVE_NECK, Neckline};
 use super::star::GluedPart;
@@ -130,8 +130,8 @@ pub(super) struct Balloon<'a> {
 struct Load {
     /// Share of the full pressure.
     pressure: f64,
-    /// What the cloth at hems carries of the pressure on their lids.
-    on_lids: OnLids,
+    /// What it is inflated round: that decides what hems carry of the pressure on their lids.
+    round: InflatedRound,
     /// Way by which the weight moves a free node.
     weight: Vec3,
     /// Whether openings and sections are held.
@@ -161,21 +161,21 @@ impl Balloon<'_> {
     /// Inflates the part, whose nodes start at `x`, round the `axes`, lets these grow, and puts it on the body.
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut motion = Motion::new(self, x);
-        let held = |pressure: f64, on_lids: OnLids| Load { pressure, on_lids, weight: Vec3::zeros(), is_held: true };
+        let held = |pressure: f64, round: InflatedRound| Load { pressure, round, weight: Vec3::zeros(), is_held: true };
         let thin = self.arms.pose(axes, 1.0);
         let ribbons = motion.ribbons.nodes.clone();
         for _ in 0..INFLATE {
-            motion.step(held(1.0, OnLids::All), &thin, &ribbons, |p| thin.outside(p, SMALLEST, GAP));
+            motion.step(held(1.0, InflatedRound::Axes), &thin, &ribbons, |p| thin.outside(p, SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
             let growing = self.arms.pose(axes, 1.0 - share);
             let ribbons = motion.ribbons.carried(self.arms, axes, 1.0 - share);
-            motion.step(held(1.0 - share, OnLids::Share), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
+            motion.step(held(1.0 - share, InflatedRound::Body), &growing, &ribbons, |p| growing.outside(p, scale, GAP));
         }
-        let hung = Load { pressure: 0.0, on_lids: OnLids::Share, weight: -Vec3::y() * WEIGHT, is_held: false };
-        let settling = if self.hangs { hung } else { held(0.0, OnLids::Share) };
+        let hung = Load { pressure: 0.0, round: InflatedRound::Body, weight: -Vec3::y() * WEIGHT, is_held: false };
+        let settling = if self.hangs { hung } else { held(0.0, InflatedRound::Body) };
         let ribbons = motion.ribbons.carried(self.arms, axes, 0.0);
         for _ in 0..SETTLE {
             motion.step(settling, axes, &ribbons, |p| p + way_out(body, p, GAP, LOOK));
@@ -251,7 +251,7 @@ impl<'a> Motion<'a> {
     /// One step under a load, clear of a body that leads points `outside` it. Straps turn away from its `axes`, and the
     /// ribbons go to where they are given.
     fn step(&mut self, load: Load, axes: &Axes, ribbons: &[Vec3], outside: impl Fn(Vec3) -> Vec3) {
-        let push = self.pushed(load.on_lids);
+        let push = self.pushed(load.round);
         let turn = facing::turned(&self.x[..self.count()], &self.balloon.part.triangles, &self.strap, axes);
         let mut p: Vec<Vec3> = self.x.iter().zip(&self.velocity).map(|(x, v)| x + v).collect();
         for ((p, push), turn) in p.iter_mut().zip(&push).zip(turn) {
@@ -320,7 +320,7 @@ impl<'a> Motion<'a> {
 
     /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed, and on straps.
     /// Nodes at a hem carry pressure on its lid too.
-    fn pushed(&self, on_lids: OnLids) -> Vec<Vec3> {
+    fn pushed(&self, round: InflatedRound) -> Vec<Vec3> {
         let mut out = vec![Vec3::zeros(); self.count()];
         for t in &self.balloon.part.triangles {
             let [a, b, c] = t.map(|n| self.x[n as usize]);
@@ -332,7 +332,7 @@ impl<'a> Motion<'a> {
             *out = *out * width(n) / area.max(f64::MIN_POSITIVE);
         }
         let lids = self.balloon.lids.iter();
-        lids.flat_map(|lid| lid.push(on_lids, &self.x, &self.area)).for_each(|(n, push)| out[n] += push * width(n));
+        lids.flat_map(|lid| lid.push(round, &self.x, &self.area)).for_each(|(n, push)| out[n] += push * width(n));
         out
     }
 

@@ -7,13 +7,22 @@ use std::collections::HashMap;
 
 use crate::geometry::{Vec3, sorted_pair};
 
-/// Which share of the pressure on its lid the cloth at an opening carries.
+/// What a balloon is inflated round.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum OnLids {
-    /// The lid's own share, while the body grows.
-    Share,
-    /// All of it, round thin axes.
-    All,
+pub(super) enum InflatedRound {
+    /// Thin axes.
+    Axes,
+    /// The body, which grows from its axes.
+    Body,
+}
+
+/// Shares of the pressure on a lid that the cloth at its opening carries.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LidShares {
+    /// Round thin axes.
+    pub(super) axes: f64,
+    /// While the body grows.
+    pub(super) body: f64,
 }
 
 /// The lid of an opening.
@@ -23,8 +32,8 @@ pub(super) struct Lid {
     edges: Vec<[u32; 2]>,
     /// The nodes that are nearer to this opening than to another.
     nodes: Vec<u32>,
-    /// The share of the pressure on it that the cloth carries while the body grows.
-    share: f64,
+    /// What the cloth carries of the pressure on it.
+    shares: LidShares,
 }
 
 impl Lid {
@@ -32,7 +41,7 @@ impl Lid {
     /// `triangles` are those of one connected part, clockwise seen from outside.
     pub(super) fn all(triangles: &[[u32; 3]], rims: &[&[u32]], far: &[Vec<f64>]) -> Vec<Self> {
         let mut lids: Vec<Self> =
-            rims.iter().map(|_| Self { edges: Vec::new(), nodes: Vec::new(), share: 0.0 }).collect();
+            rims.iter().map(|_| Self { edges: Vec::new(), nodes: Vec::new(), shares: LidShares::default() }).collect();
         let mut nodes: Vec<u32> = triangles.iter().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -54,9 +63,9 @@ impl Lid {
         lids
     }
 
-    /// The same lid, which carries a share of the pressure while the body grows.
-    pub(super) fn sharing(self, share: f64) -> Self {
-        Self { share, ..self }
+    /// The same lid with these shares of its pressure.
+    pub(super) fn sharing(self, shares: LidShares) -> Self {
+        Self { shares, ..self }
     }
 
     /// Twice the area of the lid along its normal out of the balloon, metres².
@@ -68,13 +77,13 @@ impl Lid {
     /// area of the triangles round every node, metres².
     pub(super) fn push<'a>(
         &'a self,
-        on_lids: OnLids,
+        round: InflatedRound,
         x: &[Vec3],
         area: &[f64],
     ) -> impl Iterator<Item = (usize, Vec3)> + use<'a> {
-        let share = match on_lids {
-            OnLids::Share => self.share,
-            OnLids::All => 1.0,
+        let share = match round {
+            InflatedRound::Axes => self.shares.axes,
+            InflatedRound::Body => self.shares.body,
         };
         // Every triangle counts at each of its three corners.
         let own: f64 = self.nodes.iter().map(|n| area[*n as usize]).sum::<f64>() / 3.0;
@@ -117,10 +126,14 @@ mod tests {
         let pressure: Vec3 = triangles.iter().map(|t| normal(t) * 3.0).sum();
         assert!(pressure.y > 0.1, "it is lifted: {pressure:?}");
         let lids = Lid::all(&triangles, &[&rim], &[far]);
-        let lid = lids[0].clone().sharing(0.25);
-        let carried = |on_lids| lid.push(on_lids, &x, &area).map(|(n, push)| push * area[n]).sum::<Vec3>();
-        assert!((pressure + carried(OnLids::All)).norm() < 1e-12, "{pressure:?} {:?}", carried(OnLids::All));
-        assert!((0.25 * pressure + carried(OnLids::Share)).norm() < 1e-12, "{:?}", carried(OnLids::Share));
+        let lid = lids[0].clone().sharing(LidShares { axes: 1.0, body: 0.25 });
+        let carried = |round| lid.push(round, &x, &area).map(|(n, push)| push * area[n]).sum::<Vec3>();
+        assert!(
+            (pressure + carried(InflatedRound::Axes)).norm() < 1e-12,
+            "{pressure:?} {:?}",
+            carried(InflatedRound::Axes)
+        );
+        assert!((0.25 * pressure + carried(InflatedRound::Body)).norm() < 1e-12, "{:?}", carried(InflatedRound::Body));
     }
 
     #[test]

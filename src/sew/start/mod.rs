@@ -73,7 +73,7 @@ use axes::{Axes, Axis, RaisedArms};
 use balloon::{Balloon, Held, Length, STRAP};
 use circles::Mouth;
 use harmonic::{Film, Limb, OpeningRing, angles};
-use lids::Lid;
+use lids::{Lid, LidShares};
 use profile::Profile;
 use rings::{FIRST, WornOpenings, limb_of};
 use sections::sections;
@@ -151,21 +151,28 @@ struct OnFilm<'a> {
     nodes: Vec<Vec3>,
 }
 
+/// A lid is wide, and lifts what hangs from it, where its rim is longer than so many times the body's largest girth.
+const WIDE: f64 = 2.0;
+
 /// The lids of the openings of a connected part without sleeves that both legs leave by. Sleeves are held, and keep the
 /// pressure from lifting what hangs from them: with the lid of its hem a man's shirt took 33 s of CPU time to sew, and
 /// 18 s without.
 ///
-/// While the body grows, the hem carries what its lid is larger than the body: that lifts a wide skirt more than a
-/// straight one. Not where the garment hangs from straps: while the arms come down that draws a strap off its shoulder.
+/// Round thin axes what hangs from the shoulders carries all of the pressure on the lid, or its bodice is crushed. Else
+/// the cloth carries what the lid is larger than a narrow one. Not while the body grows where the garment hangs from
+/// straps: when the arms come down that draws a strap off its shoulder.
 fn hems(worn: &WornOpenings, part: &GluedPart, axes: &Axes) -> Vec<Lid> {
     let widest = axes.part(PartKind::Torso).map_or(0.0, Axis::widest);
     let has_straps = part.over_shoulder.iter().any(|width| *width < STRAP);
-    let share = |length: f64| if has_straps { 0.0 } else { (1.0 - (widest / length).powi(2)).max(0.0) };
+    let shares = |length: f64| {
+        let wide = (1.0 - (WIDE * widest / length).powi(2)).max(0.0);
+        LidShares { axes: if worn.hangs() { 1.0 } else { wide }, body: if has_straps { 0.0 } else { wide } }
+    };
     let rims: Vec<&[u32]> = worn.openings.iter().map(|opening| opening.rim.as_slice()).collect();
     let is_hem = |ends: &Ends| ends.has(Ends::LEFT_LEG) && ends.has(Ends::RIGHT_LEG);
     let lids = Lid::all(&part.triangles, &rims, &worn.far).into_iter().zip(&worn.openings);
     let hems = lids.zip(&worn.ends).filter(|(_, ends)| is_hem(ends));
-    hems.map(|((lid, opening), _)| lid.sharing(share(opening.length))).collect()
+    hems.map(|((lid, opening), _)| lid.sharing(shares(opening.length))).collect()
 }
 
 /// The body that a part of a garment is put on.

@@ -202,13 +202,17 @@ impl WornOpenings<'_> {
             return Seat { station: AxisPlace { center: middle, axis: -Vec3::z() }, along: None };
         }
         if ends.has(Ends::TOP) {
+            let waist = torso.landmark(PlaceWord::Waist.name());
             if let Some(y) = self.above_crotch(k, axes, torso) {
+                // What is placed by the waist may have a crotch that hangs low.
+                let at_waist = waist.filter(|_| self.levels[k].contains(&TrunkLevel::Waist));
+                let y = at_waist.map_or(y, |waist| y.min(torso.station(waist + AT_WAIST).center.y));
                 let s = torso.nearest(Vec3::new(0.0, y, torso.station(0.0).center.z));
                 return Seat { station: AxisPlace { axis: Vec3::y(), ..torso.station(s) }, along: None };
             }
             let arms = axes.part(PartKind::LeftArm).map(|arm| torso.nearest(arm.station(0.0).center));
             let highest = arms.unwrap_or_else(|| torso.length());
-            let range = match torso.landmark(PlaceWord::Waist.name()) {
+            let range = match waist {
                 Some(waist) if self.levels[k].contains(&TrunkLevel::Waist) => [waist - AT_WAIST, waist + AT_WAIST],
                 Some(waist) if self.levels[k].contains(&TrunkLevel::Chest) => [waist + AT_WAIST, highest],
                 _ => [0.0, highest],
