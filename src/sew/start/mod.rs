@@ -151,7 +151,8 @@ struct OnFilm<'a> {
     nodes: Vec<Vec3>,
 }
 
-/// A lid is wide, and lifts what hangs from it, where its rim is longer than so many times the body's largest girth.
+/// A lid is wide where its rim is longer than so many times the body's largest girth. Narrower ones lift hardly
+/// anything.
 const WIDE: f64 = 2.0;
 
 /// The lids of the openings of a connected part without sleeves that both legs leave by. Sleeves are held, and keep the
@@ -159,13 +160,13 @@ const WIDE: f64 = 2.0;
 /// 18 s without.
 ///
 /// Round thin axes what hangs from the shoulders carries all of the pressure on the lid, or its bodice is crushed. Else
-/// the cloth carries what the lid is larger than a narrow one. Not while the body grows where the garment hangs from
+/// the cloth carries what a wide lid is larger than the body. Not while the body grows where the garment hangs from
 /// straps: when the arms come down that draws a strap off its shoulder.
 fn hems(worn: &WornOpenings, part: &GluedPart, axes: &Axes) -> Vec<Lid> {
     let widest = axes.part(PartKind::Torso).map_or(0.0, Axis::widest);
     let has_straps = part.over_shoulder.iter().any(|width| *width < STRAP);
     let shares = |length: f64| {
-        let wide = (1.0 - (WIDE * widest / length).powi(2)).max(0.0);
+        let wide = if length > WIDE * widest { 1.0 - (widest / length).powi(2) } else { 0.0 };
         LidShares { axes: if worn.hangs() { 1.0 } else { wide }, body: if has_straps { 0.0 } else { wide } }
     };
     let rims: Vec<&[u32]> = worn.openings.iter().map(|opening| opening.rim.as_slice()).collect();
