@@ -130,7 +130,7 @@ pub(super) struct Balloon<'a> {
 struct Load {
     /// Share of the full pressure.
     pressure: f64,
-    /// What it is inflated round: that decides what hems carry of the pressure on their lids.
+    /// Axes or body. The share of the pressure on their lids that hems carry depends on it.
     round: InflatedRound,
     /// Way by which the weight moves a free node.
     weight: Vec3,

@@ -121,8 +121,8 @@ impl ParticleLaying {
         Ply { outward: outward.try_normalize(0.0).unwrap_or_default(), height: height + off }
     }
 
-    /// Lifts what laps over other cloth off it: the rim, and the cloth that covers, with all that is sewn to it. What
-    /// is sewn to the cloth below as well stays.
+    /// Lifts what laps over other cloth off it: the rim, and the cloth that covers, with all that is sewn to it. Cloth
+    /// that is sewn to the cloth below as well stays.
     fn lift(&mut self, mesh: &ClothMesh, glued: &Glued) {
         let class = Stitching::new(mesh).class;
         let class = |p: u32| class[p as usize] as usize;

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use crate::geometry::{Vec3, sorted_pair};
 
-/// What a balloon is inflated round.
+/// The thing that a balloon is inflated round.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum InflatedRound {
     /// Thin axes.
@@ -32,7 +32,7 @@ pub(super) struct Lid {
     edges: Vec<[u32; 2]>,
     /// The nodes that are nearer to this opening than to another.
     nodes: Vec<u32>,
-    /// What the cloth carries of the pressure on it.
+    /// The shares of the pressure on it that the cloth carries.
     shares: LidShares,
 }
 
@@ -73,7 +73,7 @@ impl Lid {
         self.edges.iter().map(|edge| edge.map(|n| x[n as usize])).map(|[a, b]| a.cross(&b)).sum()
     }
 
-    /// What its nodes carry of the pressure on the lid, in lengths of the pressure on flat cloth. `area` has twice the
+    /// The pressure on the lid that its nodes carry, in lengths of the pressure on flat cloth. `area` has twice the
     /// area of the triangles round every node, metres².
     pub(super) fn push<'a>(
         &'a self,
