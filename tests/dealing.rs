@@ -7,7 +7,7 @@ use toile::io::garment::{read_text, write};
 use toile::io::garmentcode;
 use toile::pattern::Garment;
 use toile::pipeline::{Job, Overrides, read};
-use toile::sew::start::{Dealing, deal, edges, glue, openings};
+use toile::sew::start::{Dealing, Ends, Glued, GluedOpening, deal, edges, glue, guess, openings};
 
 /// What passes through an opening, and a piece or an edge on its rim.
 type Worn = (&'static str, &'static str);
@@ -146,14 +146,29 @@ fn worn(job: &Job, garment: &Garment) -> (Dealing, Vec<(String, Vec<String>)>) {
     let found = openings(&glued, &job.mesh);
     let dealing = deal(garment, &job.mesh, &glued, &found, &job.body);
     let dealing = dealing.unwrap_or_else(|error| panic!("{}: {error}", job.file.display()));
-    let rows = found.iter().zip(&dealing.ends).filter(|(_, ends)| !ends.is_empty());
-    let rows = rows.map(|(o, ends)| (ends.to_string(), edges(garment, &job.mesh, &glued, o))).collect();
+    let rows = rows(job, garment, &dealing, &glued, &found);
     (dealing, rows)
+}
+
+/// The openings that something passes through, with the edges there.
+fn rows(
+    job: &Job,
+    garment: &Garment,
+    dealing: &Dealing,
+    glued: &Glued,
+    found: &[GluedOpening],
+) -> Vec<(String, Vec<String>)> {
+    let rows = found.iter().zip(&dealing.ends).filter(|(_, ends)| !ends.is_empty());
+    rows.map(|(o, ends)| (ends.to_string(), edges(garment, &job.mesh, glued, o))).collect()
 }
 
 /// Checks the openings of a garment and, for some of them, a piece or an edge on their rims.
 fn check(job: &Job, openings: &[&str], at: &[Worn]) {
-    let (_, rows) = worn(job, &job.garment);
+    is_dealt_so(job, &worn(job, &job.garment).1, openings, at);
+}
+
+/// Checks the openings that something passes through and, for some of them, a piece or an edge on their rims.
+fn is_dealt_so(job: &Job, rows: &[(String, Vec<String>)], openings: &[&str], at: &[Worn]) {
     let mut found: Vec<&str> = rows.iter().map(|r| r.0.as_str()).collect();
     let mut wanted = openings.to_vec();
     found.sort_unstable();
@@ -325,4 +340,58 @@ fn a_top_over_one_shoulder_has_that_arm_in_its_armhole() {
     let turned = text.replace("torso front", "torso x").replace("torso back", "torso front");
     let job = of_text("one_shoulder", &turned.replace("torso x", "torso back"));
     check(&job, &["right arm", "head + left arm", "left leg + right leg"], &[("right arm", "a.")]);
+}
+
+/// Garments that words were needed for: their dealing was wrong, and said to be clear.
+#[test]
+fn garments_without_words_are_worn_as_anyone_would() {
+    let cases: [(&str, &[&str], &[Worn]); 7] = [
+        // The sides are 57 mm long.
+        ("bikini", &TROUSERS, &[("head + left arm + right arm", "front.waist")]),
+        // Nothing passes through the mouths: the bags close them.
+        ("slash_pockets", &TROUSERS, &[("head + left arm + right arm", "waistband"), ("left leg", "cuff.L")]),
+        // Sleeves hang below holes that are as wide.
+        ("cold_shoulder", &SHIRT, &[("left arm", "sleeve.L.hem"), ("head", "front.neck")]),
+        // One hook at the corner of the neck closes the ring of the neckline.
+        ("hooked_cape", &["head", "left arm + right arm + left leg + right leg"], &[("head", "back.neck")]),
+        // Below its last button it is open to the hem.
+        ("coat", &SHIRT, &[("left leg + right leg", "front.L.hem"), ("head", "front.R.lapel")]),
+        // Front and back are mirror images of one another, if roughly.
+        (
+            "one_shoulder_dress",
+            &["left arm", "head + right arm", "left leg + right leg"],
+            &[("left arm", "front.armhole")],
+        ),
+        // A top as wide as a wide neck, and a hem as wide as that of a poncho.
+        ("bustier", &SKIRT, &[("head + left arm + right arm", "side_front.L.top")]),
+    ];
+    for (name, wanted, at) in cases {
+        let job = own(&format!("tests/data/{name}.yaml"));
+        let glued = glue(&job.garment, &job.mesh, &[]);
+        let found = openings(&glued, &job.mesh);
+        let dealing = guess(&job.garment, &job.mesh, &glued, &found, &job.body);
+        assert!(dealing.margin > 0.4, "{name}: the next dealing costs {} more", dealing.margin);
+        is_dealt_so(&job, &rows(&job, &job.garment, &dealing, &glued, &found), wanted, at);
+    }
+}
+
+/// Below its last button the fronts of a coat are lapped for the start, and its hem is no longer than that of a closed
+/// coat.
+#[test]
+fn the_slit_below_the_last_button_is_closed_for_the_start() {
+    let job = own("tests/data/coat.yaml");
+    let length = |zips: &[[u32; 2]]| {
+        let glued = glue(&job.garment, &job.mesh, zips);
+        let found = openings(&glued, &job.mesh);
+        let dealing = guess(&job.garment, &job.mesh, &glued, &found, &job.body);
+        let hem = dealing.ends.iter().position(|ends| *ends == Ends::LEGS).expect("a hem");
+        (found[hem].length, glued.laps[0].pairs.len(), dealing.zips)
+    };
+    let (open, short, zips) = length(&[]);
+    let (closed, long, _) = length(&zips);
+    // The slit is 470 mm long, and has two sides.
+    assert!(open - closed > 0.9, "{open} m and {closed} m");
+    // A front reaches 160 mm over the other one.
+    assert!((closed - 1.21).abs() < 0.03, "{closed} m");
+    assert!(long > short + 15, "{short} and {long} particles of its rim lie over the other front");
 }

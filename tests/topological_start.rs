@@ -479,6 +479,44 @@ fn a_tacked_pocket_lies_on_its_skirt() {
     is_sewn_round(&job, &["legs", "torso"]);
 }
 
+/// Arms were dealt to the leg holes of a bikini: its sides are short.
+#[test]
+fn a_bikini_is_sewn_round_the_hips() {
+    is_sewn_round(&job("tests/data/bikini.yaml"), &["left leg", "right leg", "torso"]);
+}
+
+/// The bags of pockets close their mouths, and their own seams are no openings.
+#[test]
+fn a_pocket_is_no_opening() {
+    let job = job("tests/data/slash_pockets.yaml");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    let faults: Vec<_> = run.report().worn.into_iter().filter_map(|worn| worn.fault).collect();
+    assert!(faults.is_empty(), "{faults:?}");
+}
+
+/// A garment without a seam had no stage to sew.
+#[test]
+fn a_cloth_that_is_only_knotted_is_put_on() {
+    let text = "garment: 1
+body: woman_92
+fabrics: {shell: chiffon}
+pieces:
+  cloth:
+    grain: [[500, 100], [500, 300]]
+    outline: {start: 0 0, top: L 1000 0, right: L 1000 400, hem: L 0 400, left: L 0 0}
+closures:
+  - {kind: knot, piece: cloth, at: [[40, 15], [40, 40]], meets: cloth, meets_at: [[960, 15], [960, 40]]}
+free: ['cloth.*']
+";
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    let loaded = read_text("cloth", "cloth.yaml", text).expect("a garment");
+    let job = Job::new(Path::new("cloth.yaml"), loaded, &overrides).expect("a job");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("put on");
+    assert!(run.report().worn.iter().any(|worn| worn.body_part.as_deref() == Some("torso")));
+}
+
 /// Band and tails were one ring, twice as long as the waist.
 #[test]
 fn an_apron_is_tied_and_its_tails_are_no_part_of_the_band() {

@@ -17,8 +17,9 @@ use crate::verify::{Passage, Through, Welded, is_dealt};
 /// cut as a pair are alike within rounding.
 const ALIKE: f64 = 0.01;
 
-/// A rim that turns towards its cloth by more than this, radians, ends a tube: half-way between a hole and a tube.
-const TUBE: f64 = -PI;
+/// A rim that turns by less than this towards its cloth or away from it, radians, ends a tube: half-way between a tube
+/// and a hole, and between a tube and the rim of a sheet.
+const TUBE: f64 = PI;
 
 /// A hole is no slit from this share of a circle's area on.
 const ROUND: f64 = 0.3;
@@ -113,7 +114,7 @@ impl<'a> Wear<'a> {
 
     /// An opening that nothing passes through, and that is no slit, keyhole, vent or rim of an open piece.
     fn empty(&self, k: usize) -> Option<Fault> {
-        if !self.is_empty(k) || self.is_face(k) {
+        if !self.is_empty(k) || self.is_face(k) || self.is_bag(k) {
             return None;
         }
         let text = if self.together(k).all(|j| self.is_empty(j)) {
@@ -122,7 +123,7 @@ impl<'a> Wear<'a> {
         } else if let Some(worn) = self.pair(k).filter(|&j| !self.is_empty(j)) {
             let (other, part) = (&self.names[worn], part_name(&self.now[worn]));
             Some(format!("nothing passes through it, and {part} through '{other}', which is its pair"))
-        } else if self.flat[k].turning > TUBE {
+        } else if self.flat[k].turning.abs() < TUBE {
             Some("nothing passes through it, and it is the end of a tube".to_owned())
         } else {
             self.is_armhole(k)
@@ -131,14 +132,19 @@ impl<'a> Wear<'a> {
         Some(Fault { kind: FaultKind::Empty, text: text? })
     }
 
+    /// Whether an empty opening is the seam round a bag of a part of the garment that is worn elsewhere.
+    fn is_bag(&self, k: usize) -> bool {
+        self.flat[k].is_sewn && !self.together(k).all(|j| self.is_empty(j))
+    }
+
     fn is_empty(&self, k: usize) -> bool {
         self.now[k].passage.through.is_none()
     }
 
-    /// Whether an empty opening is the face of a hood that lies over the end of the neck: with the head in it, and not
+    /// Whether an opening is the face of a hood that lies over the end of the neck: with the head in it, and not
     /// without, each end of the body is beyond one opening of this part of the garment.
     fn is_face(&self, k: usize) -> bool {
-        let face = Passage { through: None, ends: vec![PartKind::Neck] };
+        let face = Passage { through: None, ends: self.with_head(k) };
         let passages: Vec<&Passage> = self.together(k).map(|j| &self.now[j].passage).collect();
         let with_face: Vec<&Passage> =
             self.together(k).map(|j| if j == k { &face } else { &self.now[j].passage }).collect();
@@ -149,7 +155,30 @@ impl<'a> Wear<'a> {
     /// mannequin has a head that would hold it up.
     fn has_fallen_back(&self, k: usize, before: &Seen) -> bool {
         let end_of_neck = self.run.body.part(PartKind::Neck).and_then(|neck| neck.sections.last());
-        self.is_empty(k) && self.is_face(k) && end_of_neck.is_some_and(|end| before.height > end.center.y)
+        let stood = if self.is_empty(k) {
+            end_of_neck.is_some_and(|end| before.height > end.center.y)
+        } else {
+            // The rim of an open front goes round the face and down to the hem.
+            self.part_alike(&before.passage.ends, &self.with_head(k))
+        };
+        self.is_face(k) && stood
+    }
+
+    /// The ends of the body on one side of an opening, with the head on the other side than it is now.
+    fn with_head(&self, k: usize) -> Vec<PartKind> {
+        let mut ends = self.now[k].passage.ends.clone();
+        match ends.iter().position(|part| *part == PartKind::Neck) {
+            Some(at) => drop(ends.remove(at)),
+            None => ends.push(PartKind::Neck),
+        }
+        ends
+    }
+
+    /// Whether two groups of ends part the body alike: they are one group, or each other's rest.
+    fn part_alike(&self, one: &[PartKind], other: &[PartKind]) -> bool {
+        let ends = self.run.body.parts.iter().map(|part| part.kind).filter(|kind| *kind != PartKind::Torso);
+        let in_both: Vec<bool> = ends.map(|end| one.contains(&end) == other.contains(&end)).collect();
+        in_both.iter().all(|both| *both) || !in_both.contains(&true)
     }
 
     /// The other one of a pair: as long, and of pieces as large.
@@ -189,8 +218,12 @@ impl<'a> Wear<'a> {
     fn slid(&self, k: usize) -> Option<Fault> {
         let text = self.fallen(k).or_else(|| {
             let sewn = &self.sewn?[k];
-            let (before, now) = (sewn.along(), self.now[k].along());
-            let gone = before - now;
+            // What hangs from the highest point of an open piece falls without it.
+            let gone = if self.together(k).count() == 1 {
+                sewn.top - self.now[k].top
+            } else {
+                sewn.along() - self.now[k].along()
+            };
             (self.holds(k) && gone > SETTLES).then(|| {
                 format!(
                     "has slid down by {:.0} mm since it was sewn, to a height of {:.0} mm: nothing holds it on {}",

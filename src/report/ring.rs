@@ -28,6 +28,8 @@ pub(super) struct FlatRing {
     /// The area that it encloses when laid out in the plane, over that of a circle of its length: 1 for a round hole, 0
     /// for a slit.
     pub(super) roundness: f64,
+    /// Whether cloth is sewn to cloth all along it, as round a bag.
+    pub(super) is_sewn: bool,
 }
 
 impl FlatCloth {
@@ -55,11 +57,16 @@ impl FlatCloth {
         self.edges.get(&sorted_pair([v, w])).map_or(0.0, |edge| edge.0)
     }
 
+    /// Number of triangles at the edge between two neighbouring vertices. `None` for others.
+    fn layers(&self, ends: [u32; 2]) -> Option<usize> {
+        self.edges.get(&sorted_pair(ends)).map(|edge| edge.1)
+    }
+
     /// Turn of a closed chain of vertices at its corner `k`, radians. A step that is no edge of the cloth goes over a
     /// closure, square to the rim.
     pub(super) fn turn(&self, ring: &[u32], k: usize) -> f64 {
         let n = ring.len();
-        let layers = |k: usize| self.edges.get(&sorted_pair([ring[k % n], ring[(k + 1) % n]])).map(|edge| edge.1);
+        let layers = |k: usize| self.layers([ring[k % n], ring[(k + 1) % n]]);
         match (layers(k + n - 1), layers(k)) {
             (Some(one), Some(other)) => PI - self.angle(ring[k], one.max(other)),
             _ => -FRAC_PI_2,
@@ -69,7 +76,8 @@ impl FlatCloth {
     /// The rim along a closed chain of vertices.
     pub(super) fn ring(&self, ring: &[u32]) -> FlatRing {
         let (mut at, mut way, mut double_area) = (Vec2::zeros(), 0.0f64, 0.0);
-        let mut out = FlatRing::default();
+        let is_seam = |k: usize| self.layers([ring[k], ring[(k + 1) % ring.len()]]).is_some_and(|layers| layers > 1);
+        let mut out = FlatRing { is_sewn: (0..ring.len()).all(is_seam), ..FlatRing::default() };
         for k in 0..ring.len() {
             let turn = self.turn(ring, k);
             let length = self.length(ring[k], ring[(k + 1) % ring.len()]);

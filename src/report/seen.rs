@@ -15,6 +15,8 @@ pub(super) struct Seen {
     pub(super) length: f64,
     /// Mean height of its rim.
     pub(super) height: f64,
+    /// Height of the highest point of its rim.
+    pub(super) top: f64,
     /// Height of the highest point of its rim above the lowest.
     pub(super) level: f64,
 }
@@ -23,6 +25,7 @@ impl Seen {
     pub(super) fn new(openings: &[&SewnRim], welded: &Welded, body: &Mannequin) -> Vec<Self> {
         let rims: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
         let seen = |(rim, passage): (&Vec<Vec3>, Passage)| Self {
+            top: rim.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max),
             past_end: passage.through.and_then(|part| past_end(rim, part, body)),
             passage,
             length: (0..rim.len()).map(|k| (rim[(k + 1) % rim.len()] - rim[k]).norm()).sum(),

@@ -206,7 +206,15 @@ impl<'a> Closing<'a> {
         stages.dedup();
         let of = |seam: u32| stages.partition_point(|s| *s < mesh.seams[seam as usize].stage);
         let stage = stitching.pairs.iter().map(|(_, seam)| of(*seam)).collect();
-        Self { stitching, tacks, tighter: 0, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
+        Self {
+            stitching,
+            tacks,
+            tighter: 0,
+            tolerance,
+            stage,
+            harder: vec![0; stages.len().max(1)],
+            passing: Vec::new(),
+        }
     }
 
     /// Closes the seams of a `stage` and keeps those of earlier ones closed. Returns the steps that took, at most

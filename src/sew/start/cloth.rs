@@ -56,6 +56,16 @@ impl<'a> Distances<'a> {
         self.glued.corners[triangle].map(|p| self.flat[p as usize])
     }
 
+    /// Sum of the flat angles of the cloth round a node, radians.
+    pub(super) fn angle(&self, node: u32) -> f64 {
+        let angle = |&(t, k): &(u32, u8)| {
+            let corners = self.corners(t as usize);
+            let [own, one, other] = [0, 1, 2].map(|step| corners[(k as usize + step) % 3]);
+            (one - own).angle(&(other - own))
+        };
+        self.around.of(node).iter().map(angle).sum()
+    }
+
     /// Distance of every node from the nearest of these, metres; infinite in other parts.
     pub fn from(&self, nodes: &[u32]) -> Vec<f64> {
         let mut far = vec![f64::INFINITY; self.glued.count];

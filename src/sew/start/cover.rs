@@ -6,6 +6,7 @@ use std::ops::Range;
 use nalgebra::{Isometry2, Point2};
 
 use super::glue::Follow;
+use super::tails::into;
 use crate::geometry::{Locator, Vec2, distance_to_segment};
 use crate::mesh::ClothMesh;
 use crate::sew::place::folded::FoldedPieces;
@@ -197,14 +198,6 @@ pub(super) fn outward(mesh: &ClothMesh, piece: usize, rim: &[u32], at: Vec2) -> 
     let near = (0..rim.len()).min_by(|a, b| (flat(*a) - at).norm().total_cmp(&(flat(*b) - at).norm()))?;
     let along = flat((near + 1).min(rim.len() - 1)) - flat(near.saturating_sub(1));
     Some(-into(mesh, piece, rim[near], along.try_normalize(0.0)?))
-}
-
-/// The direction across a line of unit direction `along` into a piece's flat cloth, at one of its particles: unit.
-pub(super) fn into(mesh: &ClothMesh, piece: usize, p: u32, along: Vec2) -> Vec2 {
-    let beside = mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(|t| t.contains(&p));
-    let inward: Vec2 = beside.flatten().map(|n| mesh.flat[*n as usize] - mesh.flat[p as usize]).sum();
-    let across = Vec2::new(-along.y, along.x);
-    across * across.dot(&inward).signum()
 }
 
 /// Where a flat point lies on another piece.

@@ -4,7 +4,7 @@
 //! openings. All dealings are tried.
 
 use super::cloth::Distances;
-use super::cost::{Unlike, beyond, girth_cost, prior, unlike};
+use super::cost::{Unlike, beyond, girth_cost, prior, uneven, unlike};
 use super::deal_error::DealError;
 use super::ends::{End, Ends};
 use super::girths::Sizes;
@@ -100,7 +100,8 @@ pub fn guess(
     };
     let parts = openings.iter().map(|o| o.part).max().map_or(0, |last| last + 1);
     for part in 0..parts {
-        let mut own: Vec<usize> = (0..openings.len()).filter(|&i| openings[i].part == part).collect();
+        let mut own: Vec<usize> =
+            (0..openings.len()).filter(|&i| openings[i].part == part && !openings[i].is_backed).collect();
         own.sort_by(|&a, &b| openings[b].girth.total_cmp(&openings[a].girth));
         own.truncate(MOST);
         own.sort_unstable();
@@ -117,7 +118,7 @@ pub fn guess(
     dealing.zips = zip::zips(&table.wearing(), &dealing.ends);
     let is_hem = |ends: &Ends| ends.touches(Ends::LEGS) && !ends.has(Ends::HEAD);
     let hems = openings.iter().zip(&dealing.ends).filter(|(_, ends)| is_hem(ends));
-    let slits = |(hem, ends): (_, &Ends)| slit::slits(glued, mesh, hem, table.sizes.range(*ends).least);
+    let slits = |(hem, ends): (_, &Ends)| slit::slits(glued, mesh, &cloth, hem, table.sizes.range(*ends).least);
     dealing.zips.extend(hems.flat_map(slits));
     dealing
 }
@@ -211,7 +212,7 @@ impl<'a> DealCosts<'a> {
         let mut out = [0.0; Ends::COUNT];
         let cut_out = marks::is_cut_out(self.mesh, &self.openings[i]);
         for ends in Ends::every() {
-            let girth = girth_cost(self.openings[i].girth, ends, self.sizes.range(ends));
+            let girth = girth_cost(&self.openings[i], ends, self.sizes.range(ends));
             let said = if ends.is_empty() { 0.0 } else { self.word_cost(i, ends) + self.upright_cost(i, ends) };
             let hole = if !cut_out {
                 0.0
@@ -289,6 +290,9 @@ impl<'a> DealCosts<'a> {
                 }
                 let same = self.sided[i] * self.sided[j] * side(ends[a]) * side(ends[b]);
                 cost += CROSSED * (-same).max(0.0);
+                if ends[a].len() == 1 && ends[a].mirrored() == ends[b] {
+                    cost += uneven([i, j].map(|k| self.openings[k].girth));
+                }
                 if let Some(range) = self.sizes.apart(ends[a], ends[b]) {
                     cost += beyond(self.apart[i][j], range);
                 }
@@ -314,13 +318,14 @@ impl<'a> DealCosts<'a> {
         let pieces = || own.iter().flat_map(|&i| &self.stretches[i]).map(|s| s.piece);
         let said = |test: fn(PlaceWord) -> bool| pieces().any(|p| marks::words(self.garment, p).any(test));
         let arms = said(|word| word.meaning() == PlaceMeaning::Arm);
+        let from_shoulders = said(|word| matches!(word.meaning(), PlaceMeaning::Arm | PlaceMeaning::Neck));
         let high = said(marks::is_high);
         let low = said(|word| word.meaning() == PlaceMeaning::Leg || marks::is_low(word));
         let is_arm = |e: &Ends| !e.is_empty() && Ends::ARMS.has(*e);
         let mut cost = 0.0;
         cost += if arms && !ends.iter().any(is_arm) { UNHEARD } else { 0.0 };
         cost += if low && !high && ends.contains(&Ends::HEAD) { WORD } else { 0.0 };
-        cost + if high && !low && ends.contains(&Ends::TOP) { 0.5 * UNHEARD } else { 0.0 }
+        cost + if from_shoulders && !low && ends.contains(&Ends::TOP) { 0.5 * UNHEARD } else { 0.0 }
     }
 }
 

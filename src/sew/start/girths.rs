@@ -118,13 +118,15 @@ impl Sizes {
         } else if is(Ends::HEAD) && is_leg {
             between(1.05 * torso, torso + leg + 0.1)
         } else if is(Ends::HEAD) && is(Ends::ARMS.with(Ends::LEGS)) {
-            between(0.3 * torso, torso + 0.5 * leg)
+            // A cape may be closed by one hook at the neck.
+            between(0.03, torso + 0.5 * leg)
         } else if is(Ends::LEGS) && is_arm {
             between(0.05 * torso, torso + leg)
         } else if is(Ends::TOP) && is(Ends::LEGS) {
             between(0.12 * torso, torso + leg)
         } else if is(Ends::TOP) && is_leg {
-            between(0.23 * torso, 0.7 * torso + leg)
+            // The sides of a bikini or a thong are bands.
+            between(0.01, 0.7 * torso + leg)
         } else if is_arm && is_leg {
             between(0.45 * torso, 0.5 * arm + torso + leg)
         } else if one_arm(one) && one_arm(other) {

@@ -119,40 +119,47 @@ impl ToGlue<'_> {
         let mut is_out = turned_over(garment, mesh, self.sheet);
         let strips = strips(mesh, self.sheet);
         strips.iter().for_each(|p| is_out[*p as usize] = true);
-        let sewn: Vec<[u32; 2]> = stitches(garment, mesh, exchange).chain(self.zips.iter().copied()).collect();
+        let mut zips = self.zips.to_vec();
+        let laps = self.laps(exchange, &mut zips);
+        let sewn: Vec<[u32; 2]> = stitches(garment, mesh, exchange).chain(zips.iter().copied()).collect();
         let Sheets { left_out, turned } = layers::sheets(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
         left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
-        let (laps, pairs, is_whole) = self.flat_laps(&is_out, &turned, sewn, exchange);
+        let (laps, pairs, is_whole) = self.flat_laps(&is_out, &turned, sewn, laps);
         cover(&mut is_out, &laps);
         let mut out = numbered(mesh, &is_out, &turned, &mut welded(mesh, &is_out, &pairs));
         (out.follows, out.beyond) = follows(mesh, self.sheet);
         let roll = |p: u32| Beyond { particle: p, at: self.sheet.flat[p as usize], layers: ROLL };
         out.beyond.extend(strips.into_iter().map(roll));
-        (out.laps, out.left_out, out.turned, out.zips) = (laps, left_out, turned, self.zips.to_vec());
+        (out.laps, out.left_out, out.turned, out.zips) = (laps, left_out, turned, zips);
         (out, is_whole)
     }
 
+    /// The laps of the garment, but for those at rims that are zipped. Zips that carry a lap on are taken out.
+    fn laps(&self, exchange: Option<&Exchange>, zips: &mut Vec<[u32; 2]>) -> Vec<Lap> {
+        let (garment, mesh) = (self.garment, self.mesh);
+        let mut found = match exchange {
+            Some(exchange) => {
+                let closures = exchange.closures(garment);
+                laps(&Garment { closures, ..garment.clone() }, mesh, self.sheet, zips)
+            }
+            None => laps(garment, mesh, self.sheet, zips),
+        };
+        let is_zipped = |p: &u32| zips.iter().flatten().any(|z| z == p);
+        found.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
+        found
+    }
+
     /// The laps that leave the surface a sphere with holes, all pairs that are welded with them, and whether the
-    /// surface is one with all laps. Laps that give it a handle are left out, and done up later. So are those at rims
-    /// that are zipped.
+    /// surface is one with all laps. Laps that give it a handle are left out, and done up later.
     fn flat_laps(
         &self,
         is_out: &[bool],
         turned: &[usize],
         mut pairs: Vec<[u32; 2]>,
-        exchange: Option<&Exchange>,
+        mut rest: Vec<Lap>,
     ) -> (Vec<Lap>, Vec<[u32; 2]>, bool) {
         let (garment, mesh) = (self.garment, self.mesh);
         let mut kept: Vec<Lap> = Vec::new();
-        let mut rest = match exchange {
-            Some(exchange) => {
-                let closures = exchange.closures(garment);
-                laps(&Garment { closures, ..garment.clone() }, mesh, self.sheet)
-            }
-            None => laps(garment, mesh, self.sheet),
-        };
-        let is_zipped = |p: &u32| self.zips.iter().flatten().any(|z| z == p);
-        rest.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
         let drawn = |lap: &Lap| [lap.over, lap.under].map(|p| &garment.pieces[p].drawn_as);
         let handles = |pairs: &[[u32; 2]], laps: &[Lap]| {
             let mut is_out = is_out.to_vec();

@@ -1,8 +1,8 @@
 //! From the nodes of the inflated surface to a start of all particles: what lies on other cloth is laid on it.
 
 use super::clear::{Ply, clear};
-use super::cover::into;
 use super::glue::{Beyond, Follow, Glued, ROUNDING};
+use super::tails::into;
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;

@@ -50,13 +50,15 @@ pub struct Lap {
     pub plies: f64,
 }
 
-/// The laps of a garment: where closures hold a rim, and where that goes on across a seam.
-pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces) -> Vec<Lap> {
+/// The laps of a garment: where closures hold a rim, and where that goes on across a seam. Those whose rims `zips` join
+/// beyond their ends go on to the ends of the edges: such pairs are taken out of `zips`.
+pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &FoldedPieces, zips: &mut Vec<[u32; 2]>) -> Vec<Lap> {
     let mut all = fastenings(garment);
     all.sort_by_key(|f| f.row);
     let partners = partners(mesh);
     let held = of_one_lap(garment, &all);
     let mut rows: Vec<RimPair> = held.iter().filter_map(|row| RimPair::new(garment, mesh, &partners, row)).collect();
+    rows.iter_mut().for_each(|row| row.carry_on(mesh, zips));
     let mut next = 0;
     while next < rows.len() {
         for end in 0..2 {
@@ -164,8 +166,13 @@ impl RimPair {
             closed[side] = about(spots[side][0], width, lengths[side]);
         }
         let is_wide = |side: usize| wide.is_some_and(|(wide, _)| wide == side);
+        // A lone point of two long edges closes a stretch of both: two sheets that share one particle part there.
+        let is_lone = tacks.len() == 1 && closed.iter().all(|[from, to]| to - from < BEYOND);
+        if is_lone {
+            closed = [0, 1].map(|side| about(spots[side][0], BEYOND.max(mesh.spacing), lengths[side]));
+        }
         let mut rims = [0, 1].map(|side| {
-            let within = if is_wide(side) { nearest_between } else { between };
+            let within = if is_wide(side) || is_lone { nearest_between } else { between };
             within(&whole[side], closed[side]).into_iter().map(|r| r.1).collect::<Vec<u32>>()
         });
         // The edge of the lower piece is walked as the upper one's.
@@ -225,6 +232,34 @@ impl RimPair {
         let middle = mesh.flat[low[low.len() / 2] as usize];
         self.reach = up.iter().map(|p| (above(*p) - middle).norm()).fold(f64::INFINITY, f64::min);
         (self.edges, self.rims, self.to_end) = ([lower, upper], [low, up], to_end);
+    }
+
+    /// Carries the lap on to the end of its edges where `zips` join them beyond its own end, and takes these out.
+    fn carry_on(&mut self, mesh: &ClothMesh, zips: &mut Vec<[u32; 2]>) {
+        let whole = self.edges.map(|edge| {
+            let found = mesh.pieces[edge.piece].edges.iter().find(|e| e.edge == edge);
+            found.map_or(&[][..], |e| e.particles.as_slice())
+        });
+        for end in 0..2 {
+            let beyond = [0, 1].map(|side| beyond(whole[side], &self.rims[side], end == 0));
+            let joins = |zip: &[u32; 2]| {
+                let [a, b] = zip;
+                beyond[0].contains(a) && beyond[1].contains(b) || beyond[0].contains(b) && beyond[1].contains(a)
+            };
+            if self.to_end[end] || !zips.iter().any(joins) {
+                continue;
+            }
+            zips.retain(|zip| !joins(zip));
+            for (rim, mut more) in self.rims.iter_mut().zip(beyond) {
+                if end == 0 {
+                    more.reverse();
+                    rim.splice(0..0, more);
+                } else {
+                    rim.extend(more);
+                }
+            }
+            self.to_end[end] = true;
+        }
     }
 
     fn pieces(&self) -> [usize; 2] {
@@ -326,6 +361,14 @@ impl RimPair {
 fn of_knot(Knotted { across: [upper, lower], tails }: Knotted) -> (Vec<[u32; 2]>, Vec<(u32, Follow)>) {
     let follow = |(p, SpotOnStrap { corners, weights, layers })| (p, Follow { corners, weights, layers, share: 1.0 });
     (matched(&upper, &lower), tails.into_iter().map(follow).collect())
+}
+
+/// The particles of an edge beyond the first or the last one of a run of them, from there on. The run goes either way.
+fn beyond(edge: &[u32], run: &[u32], from_first: bool) -> Vec<u32> {
+    let place = |p: Option<&u32>| p.and_then(|p| edge.iter().position(|q| q == p));
+    let (Some(first), Some(last)) = (place(run.first()), place(run.last())) else { return Vec::new() };
+    let at = if from_first { first } else { last };
+    if (first <= last) == from_first { edge[..at].iter().rev().copied().collect() } else { edge[at + 1..].to_vec() }
 }
 
 /// The direction out of a piece across one of its edges, unit: from the middle of the cloth near the middle of the edge

@@ -6,7 +6,7 @@ use super::glue::Glued;
 use super::openings::GluedOpening;
 use crate::geometry::{Vec2, box_of};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place, PlaceMeaning, PlaceWord, Side, TrunkLevel};
+use crate::pattern::{Garment, Piece, Place, PlaceMeaning, PlaceWord, Side, TrunkLevel};
 
 /// Two outlines are mirror images when every point of one is this near to a point of the other, in grid spacings.
 const SAME_SHAPE: f64 = 1.0;
@@ -49,6 +49,8 @@ const SEWN: usize = 3;
 pub(super) struct Mirror {
     /// For every piece those that are its mirror image, perhaps itself.
     mates: Vec<Vec<usize>>,
+    /// For every piece whether it is a half of a pair.
+    is_of_pair: Vec<bool>,
     /// For every piece those that it is sewn to.
     sewn: Vec<Vec<usize>>,
     /// Number of particles of every piece, in proportion to its area.
@@ -72,8 +74,10 @@ impl Mirror {
             let alike = |&other: &usize| is_mirrored(&rims[piece], &rims[other], SAME_SHAPE * mesh.spacing);
             (0..rims.len()).filter(may_be).filter(alike).collect()
         });
+        let has_twin = |own: &Piece| garment.pieces.iter().any(|other| other.is_twin(own));
         Self {
             mates: mates.collect(),
+            is_of_pair: garment.pieces.iter().map(has_twin).collect(),
             sewn: sewn_to(mesh, glued),
             sizes: mesh.pieces.iter().map(|piece| piece.particles.len()).collect(),
         }
@@ -81,7 +85,8 @@ impl Mirror {
 
     /// The share of the cloth that an opening is sewn to, directly or through other pieces, which is the same on both
     /// sides of the opening's own plane of symmetry: 1 for the neck of a symmetric T-shirt, little for a round cuff on
-    /// a sleeve of which there is only one.
+    /// a sleeve of which there is only one. Two pieces of mirrored shapes that are no pair do not count: they may be a
+    /// front and a back that are alike.
     pub(super) fn symmetric_share(&self, opening: &[RimStretch]) -> f64 {
         let pieces = || opening.iter().map(|stretch| stretch.piece);
         let is_mate = |[one, other]: [usize; 2]| self.mates[one].contains(&other);
@@ -89,7 +94,8 @@ impl Mirror {
         let mapped = self.reached(pairs, is_mate);
         let all = self.reached(pieces().map(|piece| [piece; 2]).collect(), |[one, other]| one == other);
         let size = |pieces: BTreeSet<usize>| pieces.into_iter().map(|piece| self.sizes[piece]).sum::<usize>() as f64;
-        size(mapped) / size(all).max(1.0)
+        let is_sure = |piece: &usize| self.mates[*piece].contains(piece) || self.is_of_pair[*piece];
+        size(mapped.into_iter().filter(is_sure).collect()) / size(all).max(1.0)
     }
 
     /// The first pieces of these pairs and of all that follow from them: what two partners are sewn to are partners

@@ -11,6 +11,7 @@
 //! start must get right.
 
 mod axes;
+mod backing;
 mod balloon;
 mod circles;
 mod clear;
@@ -255,6 +256,8 @@ impl Dealt {
         let pose = |part: &WornOpenings| {
             let has_sleeves = part.has_sleeves(&part.rings(axes));
             let arms = match has_sleeves {
+                // Under a cape arms hang.
+                false if part.find(Ends::ARMS.with(Ends::LEGS)).is_some() => RaisedArms::NONE,
                 false => RaisedArms::SIDEWAYS,
                 true if part.hangs() => RaisedArms::in_sleeves(axes),
                 true => RaisedArms::NONE,

@@ -1,7 +1,9 @@
 //! The openings of a glued surface.
 
 use std::collections::{BTreeMap, HashMap};
+use std::f64::consts::PI;
 
+use super::backing::Backing;
 use super::cloth::{Around, Distances};
 use super::glue::Glued;
 use crate::geometry::{Vec2, sorted_pair};
@@ -29,12 +31,18 @@ pub struct GluedOpening {
     pub length: f64,
     /// Length of the shortest curve parallel to the rim within 200 mm of it, metres.
     pub girth: f64,
+    /// By how much the rim turns towards the cloth, radians: 0 at the end of a tube, −2π round a hole of a flat sheet,
+    /// 2π round the sheet itself.
+    pub turning: f64,
+    /// Whether pieces that are left out of the surface close it, as a bag does behind the mouth of a pocket.
+    pub is_backed: bool,
 }
 
 /// The openings of a glued surface, in the order of their first nodes.
 pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<GluedOpening> {
     let cloth = Distances::new(glued, mesh);
     let particles = side_particles(glued);
+    let backing = Backing::new(&glued.left_out, mesh);
     let rims: Vec<Vec<u32>> = rims(glued).into_iter().filter(|rim| rim.len() >= LEAST).collect();
     let fields: Vec<Vec<f64>> = rims.iter().map(|rim| cloth.from(rim)).collect();
     let opening = |(i, rim): (usize, &Vec<u32>)| {
@@ -45,7 +53,17 @@ pub fn openings(glued: &Glued, mesh: &ClothMesh) -> Vec<GluedOpening> {
         let step = |[a, b]: &[u32; 2]| (mesh.flat[*b as usize] - mesh.flat[*a as usize]).norm();
         let length: f64 = sides.iter().map(step).sum();
         let girth = least_parallel(glued, &cloth, &fields[i], NEAR.min(SHARE * next)).map_or(length, |g| g.min(length));
-        GluedOpening { rim: rim.clone(), sides, part: glued.part_of[rim[0] as usize], length, girth }
+        let turning = rim.iter().map(|n| PI - cloth.angle(*n)).sum();
+        let is_backed = backing.closes(&sides);
+        GluedOpening {
+            rim: rim.clone(),
+            sides,
+            part: glued.part_of[rim[0] as usize],
+            length,
+            girth,
+            turning,
+            is_backed,
+        }
     };
     rims.iter().enumerate().map(opening).collect()
 }

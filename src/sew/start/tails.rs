@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use nalgebra::{Isometry2, Point2};
 
 use crate::geometry::{Locator, Vec2};
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, EdgeParticles};
 use crate::pattern::{EdgeId, Garment};
 use crate::sew::place::folded::FoldedPieces;
 
@@ -15,6 +15,9 @@ pub(super) const BAND: f64 = 0.15;
 
 /// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
 const AS_NEAR: f64 = 2.0;
+
+/// An edge that is hollow by more than this share of its length ends no strap: it is a neckline.
+const HOLLOW: f64 = 0.1;
 
 /// A strip so many times as long as wide is a band.
 const LONG: f64 = 5.0;
@@ -119,6 +122,24 @@ pub(super) fn knotted(
     Some(Knotted { across: [upper.across, lower.across], tails })
 }
 
+/// The direction across a line of unit direction `along` into a piece's flat cloth, at one of its particles: unit.
+pub(super) fn into(mesh: &ClothMesh, piece: usize, p: u32, along: Vec2) -> Vec2 {
+    let beside = mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(|t| t.contains(&p));
+    let inward: Vec2 = beside.flatten().map(|n| mesh.flat[*n as usize] - mesh.flat[p as usize]).sum();
+    let across = Vec2::new(-along.y, along.x);
+    across * across.dot(&inward).signum()
+}
+
+/// How far an edge bulges into its piece, as a share of its length.
+fn hollow(mesh: &ClothMesh, edge: &EdgeParticles) -> f64 {
+    let [Some(&first), Some(&last)] = [edge.particles.first(), edge.particles.last()] else { return 0.0 };
+    let [from, to] = [first, last].map(|p| mesh.flat[p as usize]);
+    let Some(along) = (to - from).try_normalize(0.0) else { return 0.0 };
+    let inward = into(mesh, edge.edge.piece, edge.particles[edge.particles.len() / 2], along);
+    let deepest = edge.particles.iter().map(|p| (mesh.flat[*p as usize] - from).dot(&inward)).fold(0.0, f64::max);
+    deepest / (to - from).norm()
+}
+
 /// The end of the strap or band that a single point fastens, and how far along it that is: it may be nearer to a side
 /// of the strap.
 pub(super) fn end_of_strap(
@@ -127,7 +148,8 @@ pub(super) fn end_of_strap(
     partners: &HashMap<u32, Vec<u32>>,
     (piece, at): (usize, Vec2),
 ) -> Option<(EdgeId, f64)> {
-    let free = mesh.pieces[piece].edges.iter().filter(|e| e.particles.iter().any(|p| !partners.contains_key(p)));
+    let is_free = |e: &EdgeParticles| e.particles.iter().any(|p| !partners.contains_key(p));
+    let free = mesh.pieces[piece].edges.iter().filter(|e| is_free(e) && hollow(mesh, e) <= HOLLOW);
     let found: Vec<(f64, f64, EdgeId, f64)> = free
         .map(|e| {
             let path = &garment.pieces[piece].loops[e.edge.ring][e.edge.index].path;
