@@ -28,8 +28,8 @@ const SHORTEST: f64 = 0.06;
 const SHORTEST_BELOW_LAP: f64 = 0.2;
 
 /// The pairs of particles that close the slits of an opening. None where its rim would be shorter than `least`, metres:
-/// then the body passes through the slits too. Laps are closed already; the slits that go on from them are closed edge
-/// to edge.
+/// then the body passes through the slits too. Laps are closed already. The two edges of a slit that goes on from a lap
+/// are paired: by these pairs the lap is carried on.
 pub(super) fn slits(
     glued: &Glued,
     mesh: &ClothMesh,
@@ -120,9 +120,10 @@ impl Rim<'_> {
         slits.filter(|sides| sides.iter().all(|side| side.length >= SHORTEST_BELOW_LAP)).collect()
     }
 
-    /// The rim of a piece from a node on, by `step` nodes each time, up to a corner. `from_edge` passes over what is no
-    /// edge of the piece, where cloth beneath a lap is taken off, and the corner there.
-    fn along(&self, end: usize, step: usize, piece: usize, from_edge: bool) -> Side {
+    /// The edge of a piece along the rim from the end of a lap on, by `step` nodes each time, up to a corner. The rim of
+    /// the lower piece begins across it, where the cloth beneath the lap is taken off: that and the corner after it are
+    /// passed over.
+    fn along(&self, end: usize, step: usize, piece: usize, is_lower: bool) -> Side {
         let count = self.opening.rim.len();
         let mut out = Side { heading: 0.0, off: 0.0, length: 0.0, particles: Vec::new() };
         let edges = &self.mesh.pieces[piece].edges;
@@ -140,7 +141,7 @@ impl Rim<'_> {
                 self.go(&mut out, side, to);
             }
             let is_corner = (PI - self.angle(next)).abs() > CORNER;
-            if is_on_edge && is_corner || !is_on_edge && !from_edge {
+            if is_on_edge && is_corner || !is_on_edge && !is_lower {
                 break;
             }
             at = next;
