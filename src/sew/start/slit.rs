@@ -120,8 +120,9 @@ impl Rim<'_> {
         slits.filter(|sides| sides.iter().all(|side| side.length >= SHORTEST_BELOW_LAP)).collect()
     }
 
-    /// The edge of a piece along the rim from the end of a lap on, by `step` nodes each time, up to a corner. The rim of
-    /// the lower piece begins across it, where the cloth beneath the lap is taken off: that and the corner after it are
+    /// The edge of a piece along the rim from the end of a lap, by `step` nodes each time, up to a corner.
+    ///
+    /// The rim of the lower piece begins where the cloth beneath the lap is taken off. That and the corner after it are
     /// passed over.
     fn along(&self, end: usize, step: usize, piece: usize, is_lower: bool) -> Side {
         let count = self.opening.rim.len();
