@@ -1,8 +1,8 @@
 //! Openings that pieces left out of the surface close: nothing passes through the mouth of a pocket with its bag.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use crate::geometry::{DisjointSets, sorted_pair};
+use crate::geometry::{DisjointSets, Topology};
 use crate::mesh::ClothMesh;
 
 /// Left-out pieces back an opening where they are sewn to at least this share of its rim: rims end between stitches.
@@ -57,11 +57,8 @@ impl Backing {
 /// The vertices on the rim of a surface with one rim, whichever way its triangles run: the halves of a bag are sewn
 /// face to face. `None` with several rims or without one.
 fn only_rim(triangles: &[[u32; 3]]) -> Option<BTreeSet<u32>> {
-    let mut count: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-    for [a, b, c] in triangles {
-        [[*a, *b], [*b, *c], [*c, *a]].into_iter().for_each(|side| *count.entry(sorted_pair(side)).or_default() += 1);
-    }
-    let sides: Vec<[u32; 2]> = count.into_iter().filter(|(_, count)| *count == 1).map(|(side, _)| side).collect();
+    let topology = Topology::new(triangles);
+    let sides: Vec<[u32; 2]> = topology.rim_edges().map(|edge| edge.ends).collect();
     let rim: BTreeSet<u32> = sides.iter().flatten().copied().collect();
     let last = rim.last()?;
     let mut sets = DisjointSets::new(*last as usize + 1);

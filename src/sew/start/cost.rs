@@ -19,7 +19,7 @@ const APART_SLACK: f64 = 0.02;
 /// An opening that nothing passes through, and the unit of its girth's logarithm.
 const EMPTY: f64 = 1.5;
 const EMPTY_WIDE: f64 = 0.3;
-/// What that costs more for the end of a tube than for a hole of a flat sheet: sleeves and legs are not empty.
+/// Added to [`EMPTY`] at the end of a tube, and not at a hole of a flat sheet: sleeves and legs are seldom empty.
 const EMPTY_TUBE: f64 = 3.0;
 /// Left and right unlike: of two openings that mirror each other, of one that is its own mirror image (times the share
 /// of the cloth that is symmetric with it), and of two that may be either.
