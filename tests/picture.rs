@@ -340,29 +340,29 @@ fn a_start_is_drawn_with_the_rim_of_every_opening_in_a_colour_of_its_own() {
     assert_eq!(start_of("patterns/tshirt.yaml").png, start.png, "the same bytes again");
 }
 
-/// A tube as wide as a skirt and as a poncho; `place` is what its front says.
-fn start_of_tube(place: &str) -> StartPicture {
-    start_picture(&[checked_tube(place)]).expect("drawn")
+/// A cone that may be a skirt and may be a poncho; `place` is what its front says.
+fn start_of_cone(place: &str) -> StartPicture {
+    start_picture(&[checked_cone(place)]).expect("drawn")
 }
 
-fn checked_tube(place: &str) -> Checked {
+fn checked_cone(place: &str) -> Checked {
     let text = format!(
-        "garment: 1\nname: Tube\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  one:\n    \
+        "garment: 1\nname: Cone\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  one:\n    \
          place: {place}\n    \
          grain: [[0, 50], [0, 250]]\n    \
-         outline: {{start: -350 0, top: L 350 0, right: L 350 400, hem: L -350 400, left: L -350 0}}\n  \
+         outline: {{start: -200 0, top: L 200 0, right: L 500 400, hem: L -500 400, left: L -200 0}}\n  \
          other: {{like: one, place: back torso}}\nseams:\n  left: {{sew: one.right, to: other.left}}\n  \
          right: {{sew: one.left, to: other.right}}\nfree: ['*.top', '*.hem']\n"
     );
     let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("tube.yaml");
+    let file = folder.path().join("cone.yaml");
     std::fs::write(&file, text).expect("written");
     check(&file, Some(0.025)).unwrap_or_else(|refused| panic!("{refused}"))
 }
 
 #[test]
 fn a_dealing_in_doubt_is_drawn_and_both_dealings_are_told_with_the_words_that_settle_it() {
-    let start = start_of_tube("front torso");
+    let start = start_of_cone("front torso");
     keep("doubt.png", &start.png);
     assert!(!start.shown.clear, "{:?}", start.shown);
     let ways: Vec<[&str; 2]> = start.shown.doubts.iter().map(|d| [d.first.as_str(), d.second.as_str()]).collect();
@@ -371,12 +371,12 @@ fn a_dealing_in_doubt_is_drawn_and_both_dealings_are_told_with_the_words_that_se
     let said = &start.shown.words[0];
     assert_eq!((said.piece.as_str(), said.word.as_str(), said.dealing), ("one", "hip", "first"));
     assert!(start.shown.text().contains("the first is settled by 'place: hip' for one"), "{}", start.shown.text());
-    let warnings = checked_tube("front torso").loaded.warnings;
+    let warnings = checked_cone("front torso").loaded.warnings;
     let told: Vec<_> = warnings.iter().filter(|d| matches!(d.problem, Problem::WornInTwoWays { .. })).collect();
     let [told] = told[..] else { panic!("{warnings:?}") };
     assert!(told.message.starts_with("it is not clear how the garment is worn"), "{told}");
     assert!(told.hint.as_deref().is_some_and(|hint| hint.contains("'place: hip' for one")), "{told}");
-    let settled = start_of_tube("hip").shown;
+    let settled = start_of_cone("hip").shown;
     assert!(settled.clear && settled.words.is_empty(), "{settled:?}");
     assert_eq!(settled.openings, start.shown.openings);
 }
